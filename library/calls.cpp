@@ -1,9 +1,9 @@
 #include "library/impl.h"
 
+#include "cli/light/lamp_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
 #include "scenes/errors.h"
-#include "scenes/lamps.h"
 
 #include <fmt/format.h>
 
@@ -138,12 +138,6 @@ std::optional<std::string> taken(Settings& settings, const std::string& name) {
   return value;
 }
 
-LampGrouping grouping_of(const std::string& text) {
-  return parse_choice("by-lamp", text.empty() ? "node" : text,
-                      Choices<LampGrouping>{{"node", LampGrouping::node},
-                                            {"material", LampGrouping::material}});
-}
-
 /// What a run that chooses its own settings is to reach. The room's quality gives way to it, the call's does not go with it.
 std::optional<Goal> goal_of(const Settings& of_call, Settings& all) {
   std::optional<Goal> goal;
@@ -195,7 +189,7 @@ Call call_of(const Room::Impl& room, const Settings& settings, CallKind kind) {
     throw UsageError("layers", "lamps does not go with error or time, which choose for themselves");
   call.request.goal = goal;
   if (by_lamp)
-    call.by_lamp = grouping_of(*by_lamp);
+    call.by_lamp = parse_lamp_grouping("by-lamp", *by_lamp);
   if (threads)
     chosen.threads = static_cast<int>(parse_integer("threads", *threads, 1, 1'024));
   if (as_png)

@@ -108,7 +108,8 @@ static std::vector<Rgb> colours_at(std::span<const double> values, std::size_t e
 }
 
 RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
-                                       const Settings& settings) const {
+                                       const Settings& settings,
+                                       const Listener& listener) const {
   return guarded([&] {
     // Of the call that has made the rows only the number of threads still matters.
     Settings before = impl_->settings;
@@ -122,7 +123,8 @@ RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
     check_size(how.method, size());
     const SolverResult result =
         meninas::solve(impl_->factors.transport, colours_at(emission.empty() ? own : emission, size()),
-                       colours_at(impl_->reflectance, size()), how);
+                       colours_at(impl_->reflectance, size()), how,
+                       {.progress = events_of(listener).progress});
     return Solved{flat<double>(result.radiosity), result.iterations, result.residual,
                   result.error_bound, result.converged};
   });

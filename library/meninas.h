@@ -120,7 +120,7 @@ public:
   /// The same room with lamps so many times as bright, exact by linearity. Needs a solution with the setting `by-lamp`.
   RoomSolution relit(const std::vector<std::pair<std::string, Colour>>& factors) const;
   /// Irradiance anywhere in the room, by eight times the rays of a vertex. Points are within 1e6 m.
-  std::vector<Arriving> irradiance_at(std::span<const MeasuringPoint> points) const;
+  std::vector<Arriving> irradiance_at(std::span<const MeasuringPoint> points, const Listener& listener = {}) const;
 
   /// The field, by vertex: three floats each, metres and W/m^2. Between vertices it is bilinear in quads, linear in triangles.
   std::span<const float> vertices() const;
@@ -161,8 +161,9 @@ public:
     double residual = 0.0, error_bound = 0.0; ///< relative, in the maximum norm; infinite without a bound
     bool converged = false;
   };
-  /// B = E + rho T B of the elements, by the settings `solver`, `tolerance` and `steps`. E three each, W/m^2; of the scene where it is empty.
-  Solved solve(std::span<const double> emission = {}, const Settings& settings = {}) const;
+  /// B = E + rho T B of the elements, by the settings `solver`, `tolerance` and `steps`. E three each, W/m^2; of the scene where it is
+  /// empty. Lights that are no faces have none. `solver` direct tells no progress and is not ended.
+  Solved solve(std::span<const double> emission = {}, const Settings& settings = {}, const Listener& listener = {}) const;
 
   struct Impl;
   explicit RoomFactors(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
@@ -181,8 +182,10 @@ public:
   std::vector<std::string> nodes() const;
   std::vector<std::string> lamps() const; ///< as the setting `lamp` names them
   /// What the room contains, what will be modelled and what is odd about it, as JSON (`meninas plan --json`).
-  /// Reads the file anew.
   std::string plan(const Settings& settings = {}) const;
+  /// The same room where all faces of these nodes emit so much, E in W/m^2, in place of what the file says of them; 0 is dark.
+  /// A solution of it belongs to it, not to the file.
+  Room emitting(const std::vector<std::pair<std::string, Colour>>& nodes) const;
 
   /// Both passes for one camera, as `meninas render` does them; also by `mode` reference, `error` and `time`.
   RoomPicture render(const Settings& settings = {}, const Listener& listener = {}) const;
@@ -195,6 +198,7 @@ public:
   struct Impl;
 
 private:
+  explicit Room(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };
 

@@ -2,10 +2,16 @@
 
 #include "runs/plan_run.h"
 #include "runs/resources.h"
+#include "scenes/errors.h"
 #include "scenes/lamps.h"
 #include "raytrace/scene_textures.h"
 #include "scenes/stopwatch.h"
 #include "scenes/version.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <numbers>
 
 namespace meninas {
 
@@ -27,7 +33,9 @@ Room::Room(const std::filesystem::path& file, const Settings& settings, const Li
     impl->settings = settings;
     impl->loaded = call_of(*impl, {}, CallKind::room).request.settings;
     const ThreadLimit limit(impl->loaded.threads);
+    Stopwatch watch;
     impl->scene = load_scene(file, impl->loaded);
+    impl->seconds = watch.lap();
     impl->file = std::filesystem::absolute(file);
     if (listener.warning) { // once
       for (const std::string& warning : impl->scene.warnings)
@@ -64,7 +72,41 @@ std::vector<std::string> Room::lamps() const {
 std::string Room::plan(const Settings& settings) const {
   return guarded([&] {
     const RenderRequest request = call_of(*impl_, settings, CallKind::plan).request;
-    return plan_run({impl_->file, PlanFormat::json, request.camera, request.size, request.settings});
+    const ThreadLimit limit(request.settings.threads);
+    return plan_of(impl_->scene, impl_->seconds,
+                   {impl_->file, PlanFormat::json, request.camera, request.size, request.settings});
+  });
+}
+
+/// Faces of a node that has an emission of its own have materials of their own.
+static void emit(Scene& scene, NodeId node, const Rgb& radiosity) {
+  std::map<MaterialId, MaterialId> own;
+  for (Triangle& triangle : scene.triangles) {
+    if (triangle.node != node)
+      continue;
+    const auto [found, is_new] =
+        own.try_emplace(triangle.material, static_cast<MaterialId>(scene.materials.size()));
+    if (is_new) {
+      Material material = scene.materials[index(triangle.material)];
+      material.emission = radiosity / std::numbers::pi;
+      material.emissive_texture.reset();
+      scene.materials.push_back(std::move(material));
+    }
+    triangle.material = found->second;
+  }
+}
+
+Room Room::emitting(const std::vector<std::pair<std::string, Colour>>& nodes) const {
+  return guarded([&] {
+    constexpr double brightest = 1e30; // of which sums are finite
+    auto impl = std::make_shared<Impl>(*impl_);
+    for (const auto& [name, colour] : nodes) {
+      for (const double channel : colour)
+        if (!(channel >= 0.0) || channel > brightest)
+          throw UsageError("emission", fmt::format("{} of node '{}' is no light", channel, name));
+      emit(impl->scene, find_node(impl->scene, name), Rgb(colour[0], colour[1], colour[2]));
+    }
+    return Room(std::shared_ptr<const Impl>(std::move(impl)));
   });
 }
 

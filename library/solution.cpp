@@ -154,7 +154,8 @@ RoomSolution RoomSolution::relit(const std::vector<std::pair<std::string, Colour
   });
 }
 
-std::vector<Arriving> RoomSolution::irradiance_at(std::span<const MeasuringPoint> points) const {
+std::vector<Arriving> RoomSolution::irradiance_at(std::span<const MeasuringPoint> points,
+                                                  const Listener& listener) const {
   return guarded([&] {
     constexpr double farthest = 1e6; // m, as where cameras may stand
     std::vector<QueryPoint> queries;
@@ -169,7 +170,8 @@ std::vector<Arriving> RoomSolution::irradiance_at(std::span<const MeasuringPoint
     }
     const auto& field = impl_->solution.field;
     const auto found = irradiance_at_points(*field.scene, sent_light(field), queries,
-                                            point_query_settings(impl_->settings));
+                                            point_query_settings(impl_->settings),
+                                            events_of(listener).progress);
     const auto colour = [](const Rgb& c) { return Colour{c.r, c.g, c.b}; };
     std::vector<Arriving> result;
     for (const PointIrradiance& at : found)

@@ -22,8 +22,9 @@
 namespace meninas {
 
 inline constexpr std::uint32_t no_portal = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_area_light = std::numeric_limits<std::uint32_t>::max();
 
-/// One emitting face: the front or the back of a patch.
+/// One emitting face, the front or the back of a patch; or an opening, or an area light, which are none.
 struct Emitter {
   ConvexPolygon polygon; ///< counter-clockwise seen from the side that emits
   Plane plane;           ///< normal towards that side
@@ -33,7 +34,11 @@ struct Emitter {
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror: of what reflects, not of lamps
   std::uint32_t portal = no_portal; ///< of an opening, whose light comes from beyond it, its number (radiosity/scene/sky_portals.h)
 
+  std::uint32_t area_light = no_area_light; ///< of what is no face, its number in Scene::area_lights
+
   bool shows_sky() const { return portal != no_portal; }
+  /// Whether rays meet it; what they do not meet its points alone tell of, or what is beyond.
+  bool is_face() const { return portal == no_portal && area_light == no_area_light; }
 };
 
 struct EmitterNode {

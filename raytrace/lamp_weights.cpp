@@ -1,6 +1,7 @@
 #include "raytrace/lamp_weights.h"
 
 #include "raytrace/quad_lanes.h"
+#include "scenes/area_light.h"
 
 #include <cmath>
 
@@ -10,9 +11,15 @@ double density_of_points(int points, double distance, double cosine, double area
   return points * distance * distance / std::max(cosine * area, 1e-300);
 }
 
-
 int points_per_lamp(const RenderContext& context) {
   return std::clamp(context.settings.glossy_samples / 4, 1, 16);
+}
+
+/// p / (p + q) of a ray that meets so much of a lamp, so far from the lobe.
+static float share_of(const RenderContext& context, const SpecularRay& ray, double distance,
+                      double cosine, double area) {
+  const double q = density_of_points(points_per_lamp(context), distance, cosine, area);
+  return static_cast<float>(double{ray.density} / (double{ray.density} + q));
 }
 
 float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
@@ -30,9 +37,31 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
           : light.surfaces.patches[index(side.patch)].area;
   const double distance =
       double{ray.since_lobe} + double{hits.distance[k]} / light.rays.frame().scale;
-  const double q = density_of_points(points_per_lamp(context), distance,
-                                     std::abs(glm::dot(face.normal, ray.direction)), area);
-  return static_cast<float>(double{ray.density} / (double{ray.density} + q));
+  return share_of(context, ray, distance, std::abs(glm::dot(face.normal, ray.direction)), area);
+}
+
+void show_area_lights(const RenderContext& context, const LaneState& state, std::uint32_t count,
+                      const HitPacket& hits, TileWorkspace& work) {
+  const RayFrame& frame = context.light.rays.frame();
+  for (const AreaLight& light : context.light.scene.area_lights) {
+    const double area = area_of(light);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const SpecularRay& ray = state.specular[k];
+      const Point3 from = Point3(ray.origin) / frame.scale + frame.centre;
+      const auto t = lit_crossing(light, from, ray.direction);
+      // Distances of hits are in lengths of the direction, in the frame of the rays.
+      if (!t || (hits.triangle[k] != index(none<TriangleId>) &&
+                 double{hits.distance[k]} < *t * frame.scale))
+        continue;
+      const double length = glm::length(ray.direction);
+      const bool sampled = ray.density > 0.0F && ray.world != none<WorldId>;
+      const float share =
+          sampled ? share_of(context, ray, double{ray.since_lobe} + *t * length,
+                             std::abs(glm::dot(light.axis, ray.direction)) / length, area)
+                  : 1.0F;
+      work.sums[ray.way][ray.pixel] += share * ray.throughput * glm::vec3(light.radiance);
+    }
+  }
 }
 
 } // namespace meninas

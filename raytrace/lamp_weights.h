@@ -17,6 +17,10 @@ int points_per_lamp(const RenderContext& context);
 float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
                     const HitPacket& hits, std::uint32_t k);
 
+/// Adds to the pixels what rays show of area lights on their way to what they hit, by the same shares.
+/// Such lights are no faces: nothing else meets them.
+void show_area_lights(const RenderContext& context, const LaneState& state, std::uint32_t count,
+                      const HitPacket& hits, TileWorkspace& work);
 
 /// q of so many points on a lamp of that area, which are seen at this distance under this cosine.
 double density_of_points(int points, double distance, double cosine, double area);

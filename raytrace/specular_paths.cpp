@@ -1,5 +1,6 @@
 #include "raytrace/specular_paths.h"
 
+#include "raytrace/lamp_weights.h"
 #include "raytrace/shading.h"
 
 #include <algorithm>
@@ -42,6 +43,9 @@ static void trace_queued(const RenderContext& context, std::size_t first, std::s
     closest_hits(context.light.rays, packet, hits, backs, Coherence::coherent);
     if (context.light.has_glass)
       attenuate(context, packet, hits, &work.current[first]);
+    // The eye does not see area lights, what reflects shows them.
+    if (backs == Backs::absorb && !context.light.scene.area_lights.empty())
+      show_area_lights(context, state, packet.count, hits, work);
     shade_packet(context, packet, state, hits, work);
   }
 }

@@ -30,7 +30,7 @@ struct LightPoint {
   double density = 0.0; ///< p_l
 };
 
-/// Of an emitting surface, as the view sees it.
+/// Of an emitting surface or an area light, as the view sees it.
 LightPoint choose_point(const TracedScene& traced, const Point3& view,
                         const std::array<float, 4>& u);
 
@@ -40,6 +40,14 @@ LightPoint choose_sky(const TracedScene& traced, const Point3& view,
 
 /// p_l of the direction from x to a point of a light.
 double choosing_density(const TracedScene& traced, const Point3& x, const SurfacePoint& light);
+
+/// An area light on the way of a ray: what it shines, and p_l of that direction from x.
+struct PassedLight {
+  Rgb radiance{0.0};
+  double density = 0.0;
+};
+std::vector<PassedLight> area_lights_passed(const TracedScene& traced, const Ray& ray,
+                                            double distance, const Point3& x);
 
 /// p_l of a chain of that many mirrors, as a share of that of direct light.
 double chain_chance(const TracedScene& traced, std::size_t length);

@@ -1,5 +1,7 @@
 #include "reference/light_table.h"
 
+#include "scenes/area_light.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -41,7 +43,14 @@ LightTable make_light_table(const Scene& scene, const DecodedTextures& textures)
     const double power =
         std::numbers::pi * area * sides * emissions[index(scene.triangles[t].material)];
     if (power > 0.0)
-      table.lights.push_back({triangle, power});
+      table.lights.push_back({triangle, 0, power});
+  }
+  table.area_light_density.assign(scene.area_lights.size(), 0.0);
+  for (std::uint32_t k = 0; k < scene.area_lights.size(); ++k) {
+    const double power =
+        std::numbers::pi * area_of(scene.area_lights[k]) * mean(scene.area_lights[k].radiance);
+    if (power > 0.0)
+      table.lights.push_back({none<TriangleId>, k, power});
   }
 
   // Relative to the largest, so that no sum overflows.
@@ -54,8 +63,12 @@ LightTable make_light_table(const Scene& scene, const DecodedTextures& textures)
   for (Light& light : table.lights) {
     light.power /= sum;
     table.cumulative.push_back(below += light.power);
-    table.area_density[index(light.triangle)] =
-        light.power / glm::length(area_vector(corners(scene, light.triangle)));
+    if (light.triangle == none<TriangleId>)
+      table.area_light_density[light.area_light] =
+          light.power / area_of(scene.area_lights[light.area_light]);
+    else
+      table.area_density[index(light.triangle)] =
+          light.power / glm::length(area_vector(corners(scene, light.triangle)));
   }
   return table;
 }

@@ -1,5 +1,5 @@
 // The lights of a scene that have an extent, for next-event estimation:
-// emitting triangles, chosen by their power.
+// emitting triangles and area lights, chosen by their power.
 //
 // A point on an emitting triangle is chosen evenly over its area.
 // As a density of directions at x that is
@@ -17,7 +17,8 @@
 namespace meninas::reference {
 
 struct Light {
-  TriangleId triangle = none<TriangleId>;
+  TriangleId triangle = none<TriangleId>; ///< none: it is an area light
+  std::uint32_t area_light = 0; ///< its number among them
   double power = 0.0; ///< as a share of all: the chance to be chosen
 };
 
@@ -25,6 +26,7 @@ struct LightTable {
   std::vector<Light> lights;
   std::vector<double> cumulative;   ///< chances up to and with each light; the last is 1
   std::vector<double> area_density; ///< by triangle: P(triangle) / area, 0 where it does not emit
+  std::vector<double> area_light_density; ///< by area light: P / area
 };
 
 /// The power of a textured triangle is that of the texture's mean.

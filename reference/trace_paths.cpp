@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -53,6 +54,13 @@ MaterialId solid_before(const TracedScene& traced, const Path& path) {
   return inside ? met : path.medium;
 }
 
+/// Of light that a path has met and that is looked for with the density p_l as well.
+double weight_of_meeting(const Path& path, LightSearch search, double p_l) {
+  if (path.density == 0.0 || search == LightSearch::meeting)
+    return 1.0;
+  return search == LightSearch::choosing ? 0.0 : path.density / (path.density + p_l);
+}
+
 /// Light from where nothing is met, with the weight of having been met.
 void add_sky(const TracedScene& traced, LightSearch search, Path& path) {
   const Environment& sky = traced.scene.background;
@@ -60,12 +68,20 @@ void add_sky(const TracedScene& traced, LightSearch search, Path& path) {
   if (path.density > 0.0 && !traced.sky.columns.empty()) {
     const double p_l = sky_density(sky, traced.sky, path.ray.direction) *
                        chain_chance(traced, path.chain_length);
-    weight = search == LightSearch::meeting    ? 1.0
-             : search == LightSearch::choosing ? 0.0
-                                               : path.density / (path.density + p_l);
+    weight = weight_of_meeting(path, search, p_l);
   }
   path.routes.add(weight * path.throughput * radiance_from(sky, path.ray.direction),
                   path.radiance);
+}
+
+/// Area lights that a path passes on the way to what it has met so far ahead; the eye sees none.
+void add_area_lights(const TracedScene& traced, LightSearch search, double distance, Path& path) {
+  for (const PassedLight& light :
+       area_lights_passed(traced, path.ray, distance, path.scattered_at)) {
+    const double weight = weight_of_meeting(
+        path, search, light.density * chain_chance(traced, path.chain_length));
+    path.routes.add(weight * path.throughput * light.radiance, path.radiance);
+  }
 }
 
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
@@ -92,6 +108,11 @@ void intersect(const TracedScene& traced, Backs backs, LightSearch search, Paths
     Path& path = paths[lanes[lane]];
     const TriangleId triangle{hits.triangle[lane]};
     path.alive = triangle != none<TriangleId>;
+    if (backs == Backs::absorb && !traced.scene.area_lights.empty())
+      add_area_lights(traced, search,
+                      path.alive ? double{hits.distance[lane]} / frame.scale
+                                 : std::numeric_limits<double>::infinity(),
+                      path);
     if (!path.alive) {
       add_sky(traced, search, path);
       continue;
@@ -111,14 +132,9 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
   const Rgb& emission = path.at.material.emission;
   if (emission == Rgb(0.0))
     return;
-  double weight = 1.0;
-  if (path.density > 0.0 && search == LightSearch::choosing)
-    weight = 0.0;
-  if (path.density > 0.0 && search == LightSearch::both) {
-    const double p_l = choosing_density(traced, path.scattered_at, path.at) *
-                       chain_chance(traced, path.chain_length);
-    weight = path.density / (path.density + p_l);
-  }
+  const double p_l = choosing_density(traced, path.scattered_at, path.at) *
+                     chain_chance(traced, path.chain_length);
+  const double weight = weight_of_meeting(path, search, p_l);
   path.routes.add(path.throughput * emission * weight, path.radiance);
 }
 

@@ -111,6 +111,8 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
   text += fact("emitters", fmt::format("{} {}", plan.emitters,
                                     plan.emitters == 1 ? "face glows" : "faces glow"));
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
+  if (plan.area_lights > 0)
+    text += fact("area lights", std::to_string(plan.area_lights));
   if (!lamps.empty())
     text += fact("lamps", lamps);
   if (const std::size_t openings = prepared.light->portals.size(); openings > 0)
@@ -135,10 +137,15 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
 
 std::string plan_run(const PlanRequest& request) {
   const ThreadLimit limit(request.settings.threads);
-  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
   Stopwatch watch;
   Scene scene = load_scene(request.scene, request.settings);
   const double loading = watch.lap();
+  return plan_of(std::move(scene), loading, request);
+}
+
+std::string plan_of(Scene scene, double loading, const PlanRequest& request) {
+  const ThreadLimit limit(request.settings.threads);
+  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
   const Camera chosen = choose_camera(scene, request.camera, request.settings, {});
   const PictureSize size = choose_size(request.size, chosen);
   std::vector<std::string> of_camera;

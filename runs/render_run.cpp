@@ -90,7 +90,7 @@ void check_field(const std::filesystem::path& solution, const IrradianceField& f
 
 /// That nothing emits light is said by the plan.
 bool has_light(const Scene& scene) {
-  return !scene.lights.empty() || !is_dark(scene.background) ||
+  return !scene.lights.empty() || !scene.area_lights.empty() || !is_dark(scene.background) ||
          std::ranges::any_of(scene.materials, is_emitter);
 }
 

@@ -80,6 +80,8 @@ LampGroups find_lamps(const Scene& scene, LampGrouping grouping) {
   add_emitting_faces(scene, lamps);
   for (const PunctualLight& light : scene.lights)
     lamps.of_light.push_back(lamp_named(light.lamp.empty() ? light.name : light.lamp, lamps));
+  for (const AreaLight& light : scene.area_lights)
+    lamps.of_area_light.push_back(lamp_named(light.lamp.empty() ? light.name : light.lamp, lamps));
   if (scene.background.map && !scene.background.map->suns.empty())
     lamps.sun = lamp_beside("sun", lamps);
   if (!is_dark(scene.background))
@@ -116,6 +118,8 @@ Environment relit(const Environment& environment, const Rgb& sky, const Rgb& sun
 void relight_surroundings(Scene& scene, const LampGroups& lamps, std::span<const Rgb> factors) {
   for (std::size_t k = 0; k < scene.lights.size(); ++k)
     scene.lights[k].intensity *= factors[lamps.of_light[k]];
+  for (std::size_t k = 0; k < scene.area_lights.size(); ++k)
+    scene.area_lights[k].radiance *= factors[lamps.of_area_light[k]];
   const auto factor = [&](std::uint32_t lamp) { return lamp == no_lamp ? Rgb(1.0) : factors[lamp]; };
   scene.background = relit(scene.background, factor(lamps.sky), factor(lamps.sun));
 }

@@ -3,7 +3,7 @@
 // Radiosity is linear in its lamps, H = sum over lamps l of s_l H_l with s_l a factor by channel,
 // dimensionless: the light of each, found once, gives that of every state of all.
 //
-// Lamps are the nodes that emit, or their materials, and every punctual light; those whose node says
+// Lamps are the nodes that emit, or their materials, and every punctual and area light; those whose node says
 // the same `extras.lamp` are one lamp of that name. What surrounds the scene is the lamp `sky`, the
 // suns in its picture are the lamp `sun`.
 #pragma once
@@ -30,6 +30,7 @@ struct LampGroups {
   std::vector<std::uint32_t> of_material; ///< by MaterialId, where it is materials that are grouped
   std::vector<std::uint32_t> of_light;    ///< by place in Scene::lights
   std::uint32_t sun = no_lamp, sky = no_lamp;
+  std::vector<std::uint32_t> of_area_light; ///< by place in Scene::area_lights
 
   std::size_t size() const { return names.size(); }
 };
@@ -37,7 +38,7 @@ struct LampGroups {
 /// The lamp that emits from a face of this node and material.
 std::uint32_t lamp_of(const LampGroups& lamps, NodeId node, MaterialId material);
 
-/// In the order of nodes or materials, punctual lights, sun, sky.
+/// In the order of nodes or materials, punctual lights, area lights, sun, sky.
 LampGroups find_lamps(const Scene& scene, LampGrouping grouping);
 
 /// A factor that a user gives a lamp; `all` are all of them.

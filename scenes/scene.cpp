@@ -5,6 +5,8 @@
 #include "scenes/ies/intensity_distribution.h"
 #include "scenes/names.h"
 
+#include <algorithm>
+
 namespace meninas {
 namespace {
 
@@ -215,6 +217,12 @@ std::uint64_t content_hash(const Scene& scene) {
   for (const PunctualLight& light : scene.lights) {
     add_light(hash, light);
   }
+  for (const AreaLight& light : scene.area_lights) {
+    hash.add(std::uint64_t{7}); // no other flag where there is none
+    hash.add(light.radiance);
+    for (const Point3& corner : light.corners)
+      hash.add(corner);
+  }
   if (scene.background.map || scene.background.encoded)
     hash.add(content_hash(scene.background));
   else
@@ -223,6 +231,9 @@ std::uint64_t content_hash(const Scene& scene) {
 }
 
 NodeId find_node(const Scene& scene, const std::string& name) {
+  if (std::ranges::find(scene.nodes, name, &Node::name) == scene.nodes.end() &&
+      std::ranges::find(scene.area_lights, name, &AreaLight::name) != scene.area_lights.end())
+    throw UsageError(scene.file, "'" + name + "' is an area light, which has no surface");
   return static_cast<NodeId>(find_named(scene, scene.nodes, "node", name));
 }
 

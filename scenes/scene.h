@@ -74,6 +74,15 @@ struct PunctualLight {
   std::string lamp = {}; ///< as of Node
 };
 
+/// EXT_lights_area (area_light.h).
+struct AreaLight {
+  std::string name;
+  std::vector<Point3> corners; ///< of a convex polygon, counter-clockwise seen from where it shines
+  Direction axis{0.0, 0.0, -1.0}; ///< of its plane, the way that it shines
+  Rgb radiance{0.0};
+  std::string lamp = {}; ///< as of Node
+};
+
 struct Scene {
   std::string file; ///< as the user named it, for messages
   std::vector<Vertex> vertices;
@@ -99,6 +108,8 @@ struct Scene {
   /// T and the sign of B (materials/normal_map.h), by vertex of what is anisotropic or has a normal
   /// map; what has none, or zero, has those of its triangle.
   std::vector<glm::vec4> tangents;
+
+  std::vector<AreaLight> area_lights;
 };
 
 inline const Point3& position(const Scene& scene, VertexId vertex) {

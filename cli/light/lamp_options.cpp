@@ -48,6 +48,10 @@ const Choices<LampGrouping> lamp_groupings{{"node", LampGrouping::node},
 
 } // namespace
 
+LampGrouping parse_lamp_grouping(const std::string& option, const std::string& text) {
+  return parse_choice(option, text.empty() || text == preset_value ? "node" : text, lamp_groupings);
+}
+
 Option add_lamp_factors(Options& command, const std::string& description,
                          std::vector<LampFactor>& lamps) {
   return command.add_repeatable("--lamp", "NAME=FACTOR|R,G,B", description,
@@ -59,7 +63,7 @@ Option add_by_lamp(Options& command, const std::string& description,
   return command
       .add("--by-lamp", "[node|material]", description,
            [&grouping](const std::string& text) {
-             grouping = parse_choice("--by-lamp", text == preset_value ? "node" : text, lamp_groupings);
+             grouping = parse_lamp_grouping("--by-lamp", text);
            })
       .value_if_given(preset_value);
 }

@@ -190,13 +190,10 @@ std::vector<MeasuringPoint> measuring_points(const Numbers& points, const Number
   return result;
 }
 
-py::dict arriving(const RoomSolution& solution, const Numbers& points, const Numbers& normals) {
+py::dict arriving(const RoomSolution& solution, const Numbers& points, const Numbers& normals, const py::object& progress) {
   const std::vector<MeasuringPoint> at = measuring_points(points, normals);
-  std::vector<Arriving> found;
-  {
-    const py::gil_scoped_release unlocked;
-    found = solution.irradiance_at(at);
-  }
+  const std::vector<Arriving> found = listened(
+      py::none(), progress, [&](const Listener& listener) { return solution.irradiance_at(at, listener); });
   const auto count = static_cast<py::ssize_t>(found.size());
   py::array_t<double> total({count, py::ssize_t{3}}), direct({count, py::ssize_t{3}}), mirrored({count, py::ssize_t{3}});
   py::array_t<bool> inside(count);
@@ -213,7 +210,8 @@ py::dict arriving(const RoomSolution& solution, const Numbers& points, const Num
                   py::arg("inside") = inside);
 }
 
-py::dict solved(const RoomFactors& factors, const std::optional<Numbers>& emission, const Settings& settings) {
+py::dict solved(const RoomFactors& factors, const std::optional<Numbers>& emission, const Settings& settings,
+                const py::object& progress) {
   std::span<const double> given;
   if (emission) {
     const auto size = static_cast<py::ssize_t>(factors.size());
@@ -221,11 +219,8 @@ py::dict solved(const RoomFactors& factors, const std::optional<Numbers>& emissi
       refuse("emission: an array of shape (" + std::to_string(size) + ", 3) is wanted");
     given = {emission->data(), static_cast<std::size_t>(emission->size())};
   }
-  RoomFactors::Solved result;
-  {
-    const py::gil_scoped_release unlocked;
-    result = factors.solve(given, settings);
-  }
+  const RoomFactors::Solved result = listened(
+      py::none(), progress, [&](const Listener& listener) { return factors.solve(given, settings, listener); });
   py::array_t<double> radiosity({static_cast<py::ssize_t>(factors.size()), py::ssize_t{3}}, result.radiosity.data());
   return py::dict(py::arg("radiosity") = radiosity, py::arg("iterations") = result.iterations,
                   py::arg("residual") = result.residual, py::arg("error_bound") = result.error_bound,
@@ -302,6 +297,7 @@ void define_room(py::module_& module) {
       .def("nodes", &Room::nodes)
       .def("lamps", &Room::lamps)
       .def("plan", &Room::plan, py::call_guard<py::gil_scoped_release>())
+      .def("emitting", &Room::emitting, py::call_guard<py::gil_scoped_release>())
       .def("render", call_of_room(&Room::render))
       .def("solve", call_of_room(&Room::solve))
       .def("form_factors", call_of_room(&Room::form_factors))

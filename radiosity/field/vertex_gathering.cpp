@@ -168,8 +168,8 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
     emission.mirrored[v] = glm::vec3(found_here.emission.mirrored);
     emission.hits[v] = found_here.hits;
     take_by_lamp(work, v, found.field);
-    if (!found.punctual.empty())
-      found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
+    if (!found.entering.empty())
+      found.entering[v] += glm::vec3(found_here.irradiance.entering);
     if (found_here.irradiance.in_part)
       found.seen[v] = Visibility::in_part;
     found.states[v] = found_here.cover == Cover::open  ? step.then

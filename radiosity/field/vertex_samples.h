@@ -38,7 +38,7 @@ struct VertexSamples {
   std::vector<Visibility> seen;    ///< likewise, of those that have direct light
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
   VertexElements around;
-  std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
+  std::vector<glm::vec3> entering; ///< what punctual and area lights send; empty: not asked for
 };
 
 using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;

@@ -11,8 +11,8 @@ namespace meninas {
 
 LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
   LitVertices lit{make_samples(light, facets_around(light))};
-  if (!light.punctual.empty())
-    lit.found.punctual.assign(lit.found.states.size(), glm::vec3(0.0F));
+  if (sends_from_no_face(light))
+    lit.found.entering.assign(lit.found.states.size(), glm::vec3(0.0F));
   PointWorkspaces workspaces;
   const std::vector<Rgb> none_yet(element_count(light.mesh), Rgb(0.0));
   const PointGathering gathering = gathering_from(light, none_yet, how);
@@ -125,8 +125,8 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
   }
   const VertexEdges edges = edges_of(light.mesh);
   result.irradiance = at_corners(light.mesh, edges, vertices.field.irradiance);
-  if (!light.punctual.empty())
-    result.punctual = at_corners(light.mesh, edges, vertices.punctual);
+  if (sends_from_no_face(light))
+    result.entering = at_corners(light.mesh, edges, vertices.entering);
   if (light.lamps) {
     result.by_lamp = no_light(size, light.lamps.count);
     for (std::size_t l = 0; l < light.lamps.count; ++l)
@@ -154,8 +154,8 @@ void recompute_direct(const LightScene& light, std::span<const ElementId> elemen
     direct.irradiance[e] = means.light[k].total;
     if (!direct.shared.empty())
       direct.shared[e] = 0;
-    if (!direct.punctual.empty())
-      direct.punctual[e] = means.light[k].punctual;
+    if (!direct.entering.empty())
+      direct.entering[e] = means.light[k].entering;
   }
   if (light.lamps) {
     for (std::size_t k = 0; k < elements.size(); ++k)

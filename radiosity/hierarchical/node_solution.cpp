@@ -363,7 +363,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
     result.rays_traced += vertices->rays;
     result.first.shadow_rays += vertices->shadow_rays;
     result.receivers.vertices = std::move(vertices->found);
-    result.receivers.vertices.punctual.clear();
+    result.receivers.vertices.entering.clear();
   }
   return result;
 }

@@ -67,7 +67,7 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
       fold(light.scene, image.world,
            shadow_leg(light.scene, emitter,
                       {receiver.position, points[lane], receiver.plane_class, emitter.plane_class}),
-           work.folded[lane]);
+           work.folded[lane], solids_before(emitter));
     }
     const std::uint32_t dark =
         blocked(light.scene, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
@@ -150,7 +150,7 @@ void sample_dim_images(const Lighting& light, const Receiver& receiver,
       fold(light.scene, image.world,
            shadow_leg(light.scene, emitter,
                       {receiver.position, y, receiver.plane_class, emitter.plane_class}),
-           work.folded[count]);
+           work.folded[count], solids_before(emitter));
     }
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -186,6 +186,8 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
       add_of_emitter(*light.lamps, image.emitter, arrived, work.by_lamp);
     if (image.world != real_world)
       sum.mirrored += arrived;
+    if (light.emitters[image.emitter].area_light != no_area_light)
+      sum.entering += arrived;
   };
   // One that stands for others of its group has them to share its shadow rays with: it takes one.
   work.sampled.clear();
@@ -278,7 +280,7 @@ ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                      receiver.tangent,
                      receiver.coat},
                     settings.solid_rays, seed, work.shadow_rays, work.solids);
-    sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0), false};
+    sum = sum + ArrivingLight{refracted.total, refracted.mirrored};
     for (std::size_t l = 0; l < work.by_lamp.size(); ++l)
       work.by_lamp[l] += refracted.by_lamp[l];
   }
@@ -289,6 +291,7 @@ ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
   for (const PunctualArrival& arrival : arrivals) {
     sum.total += arrival.irradiance;
     sum.punctual += arrival.irradiance;
+    sum.entering += arrival.irradiance;
     if (light.lamps)
       work.by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
     if (arrival.world != real_world)

@@ -74,15 +74,15 @@ struct DirectWorkspace {
   std::uint64_t shadow_rays = 0; ///< those that look for lamps behind solids as well
 };
 
-/// Irradiance, and the parts of it whose last leg came by way of mirrors,
-/// and that punctual lights sent.
+/// Irradiance, and the parts of it whose last leg came by way of mirrors, that punctual lights sent,
+/// and that no face sent: these and area lights.
 struct ArrivingLight {
-  Rgb total{0.0}, mirrored{0.0}, punctual{0.0};
+  Rgb total{0.0}, mirrored{0.0}, punctual{0.0}, entering{0.0};
   bool in_part = false; ///< of an emitter's image some samples arrived and some did not
 
   friend ArrivingLight operator+(const ArrivingLight& a, const ArrivingLight& b) {
     return {a.total + b.total, a.mirrored + b.mirrored, a.punctual + b.punctual,
-            a.in_part || b.in_part};
+            a.entering + b.entering, a.in_part || b.in_part};
   }
 };
 

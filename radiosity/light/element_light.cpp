@@ -59,11 +59,12 @@ Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& r
     if (!wanted(image.world))
       continue;
     fold(light.scene, image.world,
-         {receiver.position, image.position, receiver.plane_class, none<PlaneId>}, work.folded[0]);
+         {receiver.position, image.position, receiver.plane_class, none<PlaneId>}, work.folded[0],
+         Solids::sheets);
     // No ray meets what has no extent: solids let it pass straight.
-    if (blocked(light.scene, work.folded, 1, work.shadow_rays, nullptr, Solids::sheets) == 0)
+    if (blocked(light.scene, work.folded, 1, work.shadow_rays) == 0)
       sum += light.worlds.worlds[index(image.world)].throughput * image.irradiance *
-             left_between(light.scene, end_of(receiver), {}, work.folded[0], Solids::sheets);
+             left_between(light.scene, end_of(receiver), {}, work.folded[0]);
   }
   return sum;
 }
@@ -140,7 +141,7 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   auto parts = narrow_spots(light.scene.mesh, light.worlds, light.punctual, element);
   std::erase_if(parts, [](const SpotPart& part) { return part.is_whole(); });
   if (parts.empty())
-    return {shared.total, shared.punctual};
+    return {shared.total, shared.entering};
   Rgb power(0.0);
   ArrivedByLamp by_lamp = work.point.by_lamp; // of spots: as much as they bring to all points
   for (const SpotPart& part : parts) {
@@ -151,7 +152,8 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   }
   const Rgb punctual = power / exposed_area(r) + mean_of_others(r, parts, work.point);
   work.point.by_lamp = std::move(by_lamp);
-  return {glm::max(shared.total - shared.punctual, Rgb(0.0)) + punctual, punctual};
+  const Rgb others = glm::max(shared.total - shared.punctual, Rgb(0.0));
+  return {others + punctual, glm::max(shared.entering - shared.punctual, Rgb(0.0)) + punctual};
 }
 
 MeansOfAreas
@@ -190,7 +192,7 @@ DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::u
     result.by_lamp = no_light(size, light.lamps->count);
   if (light.emitters.empty() && light.punctual.empty())
     return result;
-  result.punctual.resize(light.punctual.empty() ? 0 : size);
+  result.entering.resize(sends_from_no_face(light) ? size : 0);
   MeansOfAreas means = means_of_areas(
       size, light.lamps ? light.lamps->count : 0,
       [&](std::size_t i, SharedLightWorkspace& work) {
@@ -200,8 +202,8 @@ DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::u
       progress);
   for (std::size_t i = 0; i < size; ++i) {
     result.irradiance[i] = means.light[i].total;
-    if (!result.punctual.empty())
-      result.punctual[i] = means.light[i].punctual;
+    if (!result.entering.empty())
+      result.entering[i] = means.light[i].entering;
   }
   result.by_lamp = std::move(means.by_lamp);
   add_up_to(result.irradiance, result.by_lamp);

@@ -12,9 +12,9 @@
 
 namespace meninas {
 
-/// A mean over an element, and the part of it that punctual lights sent, W/m^2.
+/// A mean over an element, and the part of it that no face sent but punctual and area lights, W/m^2.
 struct MeanLight {
-  Rgb total{0.0}, punctual{0.0};
+  Rgb total{0.0}, entering{0.0};
 };
 
 /// The mean over the exposed part of an element: points are doubled until it settles. Punctual lights
@@ -36,7 +36,7 @@ means_of_areas(std::size_t count, std::size_t lamps,
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
   std::vector<Rgb>
-      punctual; ///< the part of it that punctual lights sent; empty where there are none
+      entering; ///< the part of it that punctual and area lights sent; empty where there are none
   std::vector<std::uint8_t>
       shared; ///< 1 where it is that of the corners (hierarchical/node_light.h); empty: nowhere
   LightByLamp by_lamp = {}; ///< of the irradiance; empty where it is not told apart

@@ -39,12 +39,23 @@ DirectIrradiance found_light(const LightScene& light, std::span<const std::uint6
                              const Progress& progress) {
   if (method != FormFactorMethod::analytic)
     return direct_irradiance(light, covered, settings, progress);
-  if (light.punctual.empty())
+  // Faces and the sky are in the transport, what is no face is not.
+  std::vector<Emitter> area_lights;
+  LampShares lamps = light.lamps;
+  lamps.of_emitter.clear();
+  for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+    if (light.emitters[k].area_light == no_area_light)
+      continue;
+    area_lights.push_back(light.emitters[k]);
+    if (lamps)
+      lamps.of_emitter.push_back(light.lamps.of_emitter[k]);
+  }
+  if (light.punctual.empty() && area_lights.empty())
     return {};
-  const LightTree no_emitters;
-  Lighting punctual{light, light.worlds, {}, no_emitters, light.punctual};
-  punctual.lamps = light.lamps ? &light.lamps : nullptr;
-  return direct_irradiance(punctual, covered, settings, progress);
+  const LightTree tree = make_emitter_tree(area_lights);
+  Lighting faceless{light, light.worlds, area_lights, tree, light.punctual};
+  faceless.lamps = lamps ? &lamps : nullptr;
+  return direct_irradiance(faceless, covered, settings, progress);
 }
 
 /// D + G by lamp; the sky is a lamp.
@@ -79,7 +90,7 @@ FirstLight first_light(const LightScene& light, FoundByRays rays, const DirectIr
     first.from_source = direct.irradiance;
   first.shadow_rays = direct.shadow_rays;
   add(first.irradiance, direct.irradiance);
-  add(first.entering, direct.punctual);
+  add(first.entering, direct.entering);
   add(first.entering, sky.by_portals);
 
   first.reflectance = light.mesh.reflectance;

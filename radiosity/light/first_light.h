@@ -1,11 +1,11 @@
 // Light that no element has scattered yet: the source of eq. 1, S = rho (D + G), and of translucent
 // surfaces with what comes through them (transport/translucency.h).
 //
-//   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
+//   D   from emitters, punctual and area lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
 //   G   emission that the transport's rays have gathered, and the background: pi L for the share of an element's rays that escape
 //
 // The analytic method gathers all emission itself;
-// only punctual lights, which are no surfaces, are left to D then.
+// only punctual and area lights, which are no surfaces, are left to D then.
 #pragma once
 
 #include "radiosity/light/element_light.h"

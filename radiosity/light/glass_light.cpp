@@ -185,9 +185,9 @@ void add(const SolidLight& part, double weight, SolidLight& sum) {
 } // namespace
 
 bool has_solid_light(const Lighting& light) {
-  // The sky in a window, behind a solid, is gathered.
+  // The sky in a window, behind a solid, is gathered; to area lights solids are sheets.
   return !light.scene.solids.empty() && !light.from_source.empty() &&
-         !std::ranges::all_of(light.emitters, &Emitter::shows_sky);
+         std::ranges::any_of(light.emitters, &Emitter::is_face);
 }
 
 SolidLight solid_light(const LightScene& light, const PlanePoints& points, int rays,

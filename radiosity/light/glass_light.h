@@ -22,7 +22,7 @@
 // whatever was found, so that its expectation is true.
 // The mean over several points of a plane takes as many rays as one.
 //
-// Limits: light of punctual lights, which no ray meets,
+// Limits: light of punctual and area lights, which no ray meets,
 // goes straight through solids, each face a sheet (shadow_paths.h).
 #pragma once
 

@@ -26,12 +26,12 @@ void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWo
       fold(light.scene, world,
            {receiver.position, work.images[first + count].position, receiver.plane_class,
             none<PlaneId>},
-           work.folded[count]);
+           work.folded[count], Solids::sheets);
       ++count;
     }
     // No ray meets what has no extent: solids let it pass straight.
     const std::uint32_t dark =
-        blocked(light.scene, work.folded, count, work.shadow_rays, nullptr, Solids::sheets);
+        blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (((dark >> k) & 1U) != 0)
         continue;
@@ -39,7 +39,7 @@ void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWo
       arrivals.push_back(
           {glm::normalize(image.position - receiver.position),
            light.worlds.worlds[index(world)].throughput * image.irradiance *
-               left_between(light.scene, end_of(receiver), {}, work.folded[k], Solids::sheets),
+               left_between(light.scene, end_of(receiver), {}, work.folded[k]),
            world, image.light});
     }
     first += count;
@@ -72,7 +72,8 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
                          emitter.area, Rgb(0.0), image.world});
       fold(light.scene, image.world,
-           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k]);
+           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k],
+           solids_before(emitter));
     }
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     const Rgb radiance =

@@ -75,8 +75,10 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& l
   return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
-void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment) {
+void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment,
+          Solids solids) {
   segment.world = world;
+  segment.solids = solids;
   fold_legs(light.worlds, light.mirrors, world, whole, segment.legs);
 }
 
@@ -89,9 +91,38 @@ static std::uint32_t lost_in_holes(const LightScene& light, std::span<const Fold
   return lost;
 }
 
+/// The lanes whose rays something blocks, solids as of their segments.
+static std::uint32_t occluded_lanes(const LightScene& light, RayPacket& packet,
+                                    const std::array<FoldedSegment, 16>& folded,
+                                    Blockers* triangles) {
+  const auto trace = [&](Solids solids) {
+    return occluded(light.rays, packet, Coherence::coherent, triangles, solids);
+  };
+  const auto alike = [&](const FoldedSegment& segment) { return segment.solids == folded[0].solids; };
+  if (light.solids.empty() || std::all_of(folded.begin(), folded.begin() + packet.count, alike))
+    return trace(folded[0].solids);
+  // Those of one kind at a time; a ray of no length meets nothing.
+  std::uint32_t dark = 0;
+  const auto lengths = packet.max_distance;
+  Blockers found{};
+  for (const Solids solids : {Solids::opaque, Solids::sheets}) {
+    for (std::uint32_t k = 0; k < packet.count; ++k)
+      packet.max_distance[k] = folded[k].solids == solids ? lengths[k] : 0.0F;
+    const std::uint32_t of_kind = trace(solids);
+    for (std::uint32_t rest = triangles ? of_kind : 0; rest != 0; rest &= rest - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+      found[k] = (*triangles)[k];
+    }
+    dark |= of_kind;
+  }
+  if (triangles)
+    *triangles = found;
+  return dark;
+}
+
 std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
-                      std::array<LegBlocker, 16>* blockers, Solids solids) {
+                      std::array<LegBlocker, 16>* blockers) {
   const RayFrame& frame = light.rays.frame();
   std::uint32_t result = lost_in_holes(light, std::span(folded).first(count));
   for (std::uint32_t rest = blockers ? result : 0; rest != 0; rest &= rest - 1)
@@ -117,7 +148,7 @@ std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 1
     }
     Blockers triangles;
     const std::uint32_t dark =
-        occluded(light.rays, packet, Coherence::coherent, blockers ? &triangles : nullptr, solids);
+        occluded_lanes(light, packet, folded, blockers ? &triangles : nullptr);
     for (std::uint32_t rest = blockers ? dark & ~result : 0; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(rest));
       (*blockers)[k] = {TriangleId{triangles[k]}, static_cast<std::uint32_t>(step)};
@@ -160,7 +191,7 @@ Rgb reflected(const LightScene& light, const Leg& leg, const Mirror& mirror) {
 
 } // namespace
 
-Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment, Solids solids) {
+Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment) {
   Rgb left(1.0);
   if (light.by_angle.empty())
     return left;
@@ -169,7 +200,7 @@ Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment, Solids 
   for (std::size_t k = 0; light.has_glass && k < legs.size(); ++k) {
     glass_crossings(light.rays, legs[k], crossings);
     for (const GlassCrossing& crossing : crossings)
-      left *= passed(light, crossing, solids);
+      left *= passed(light, crossing, segment.solids);
   }
   // The last mirror of the chain is met by the last leg but one, and so on.
   std::size_t step = legs.size() - 1;
@@ -194,9 +225,9 @@ static Rgb let_through(const LightScene& light, const SegmentEnd& end, const Leg
 }
 
 Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
-                 const FoldedSegment& segment, Solids solids) {
+                 const FoldedSegment& segment) {
   return let_through(light, receiver, segment.legs.front()) *
-         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment, solids);
+         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment);
 }
 
 } // namespace meninas

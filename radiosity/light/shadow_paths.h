@@ -44,26 +44,31 @@ struct LegBlocker {
 struct FoldedSegment {
   WorldId world = real_world;
   std::vector<Leg> legs;
+  Solids solids = Solids::opaque; ///< sheets to light that no ray would meet: each of their faces is one
 };
 
 /// Folds `whole`, as if it had one leg, in the storage of `segment`.
-void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment);
+void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment,
+          Solids solids = Solids::opaque);
+
+/// What solids are to the light of an emitter: rays find no area light behind them.
+inline Solids solids_before(const Emitter& emitter) {
+  return emitter.area_light == no_area_light ? Solids::opaque : Solids::sheets;
+}
 
 /// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result
 /// is set where segment k is blocked, `blockers[k]` by what, or meets a mirror in a hole.
 /// Solids of glass block them: what these bend, rays find (glass_light.h, hemisphere_rays.h); only for
-/// light without extent, which none would meet, each of their faces is a sheet. Adds to `rays`.
+/// light that none would meet each of their faces is a sheet. Adds to `rays`.
 std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
-                      std::array<LegBlocker, 16>* blockers = nullptr,
-                      Solids solids = Solids::opaque);
+                      std::array<LegBlocker, 16>* blockers = nullptr);
 
 /// What glass and coats make of light on a free segment, beside the throughput of its world:
 /// the product of what passes each pane at the angle at which it is crossed,
 /// and of what each pane or coat that is a mirror of the world reflects at its angle over the mean
-/// that the world's throughput has for it. 1 where there are none. Solids as in `blocked`.
-Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment,
-                  Solids solids = Solids::opaque);
+/// that the world's throughput has for it. 1 where there are none.
+Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment);
 
 /// A surface at the end of a segment, and the coat above it where that is a mirror.
 struct SegmentEnd {
@@ -74,6 +79,6 @@ struct SegmentEnd {
 /// The same, for light that is sent from below one coat and received below another:
 /// each lets through (1 - R(cos)) / (1 - R_mean) (coat_transmittance).
 Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
-                 const FoldedSegment& segment, Solids solids = Solids::opaque);
+                 const FoldedSegment& segment);
 
 } // namespace meninas

@@ -238,7 +238,7 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
       fold(light.scene, ray.world, {ray.from, ray.to, receiver.plane_class, ray.arriving},
-           work.point.folded[k]);
+           work.point.folded[k], solids_before(light.emitters[work.images[ray.image].emitter]));
     }
     const std::uint32_t dark =
         blocked(light.scene, work.point.folded, count, work.point.shadow_rays, &blockers);
@@ -266,7 +266,7 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
 ArrivingLight mean_of(const Lighting& light, SharedLightWorkspace& work, const PointSum& sum) {
   const double points = sum.points, lit = std::max(sum.punctual_points, 1);
   const ArrivingLight& p = sum.punctual;
-  ArrivingLight mean{p.total / lit, p.mirrored / lit, p.punctual / lit};
+  ArrivingLight mean{p.total / lit, p.mirrored / lit, p.punctual / lit, p.entering / lit};
   work.point.by_lamp = sum.punctual_by_lamp;
   for (Rgb& part : work.point.by_lamp)
     part /= lit;
@@ -278,6 +278,8 @@ ArrivingLight mean_of(const Lighting& light, SharedLightWorkspace& work, const P
       add_of_emitter(*light.lamps, image.emitter, arrived, work.point.by_lamp);
     if (image.world != real_world)
       mean.mirrored += arrived;
+    if (light.emitters[image.emitter].area_light != no_area_light)
+      mean.entering += arrived;
   }
   return mean;
 }
@@ -303,7 +305,8 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
     if (light.lamps)
       sum.punctual_by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
     const Rgb mirrored = arrival.world != real_world ? arrival.irradiance : Rgb(0.0);
-    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance, mirrored, arrival.irradiance};
+    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance, mirrored, arrival.irradiance,
+                                               arrival.irradiance};
   }
 }
 
@@ -356,7 +359,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
       for (std::size_t l = 0; l < by_solids.by_lamp.size(); ++l)
         work.point.by_lamp[l] += by_solids.by_lamp[l];
-      return mean + ArrivingLight{by_solids.total, by_solids.mirrored, Rgb(0.0)};
+      return mean + ArrivingLight{by_solids.total, by_solids.mirrored};
     }
     before = mean.total;
     const auto of_penumbra = static_cast<std::uint32_t>(settings.penumbra_rays);

@@ -71,12 +71,32 @@ bool sees_light(const RayScene& rays, const Patch& patch, const Plane& plane, Pl
   return false;
 }
 
+/// Some probe point sees some point of the light in front of the side; whichever way it shines.
+bool sees_light(const RayScene& rays, const Patch& patch, const Plane& plane, PlaneId plane_class,
+                const AreaLight& light) {
+  const auto& p = light.corners;
+  for (std::uint32_t k = 0; k < probe_points; ++k) {
+    const auto sample = sobol4(k, 0xe311);
+    const Point3 from = point_at(patch, spread(patch, sample[0], sample[1]));
+    const std::size_t corner = 1 + k % (p.size() - 2);
+    const Point3 edge = glm::mix(p[corner], p[corner + 1], double{sample[2]});
+    const Point3 to = glm::mix(p[0], edge, std::sqrt(double{sample[3]}));
+    if (signed_distance(plane, to) > 0.0 && !occluded(rays, {from, to, plane_class, none<PlaneId>}))
+      return true;
+  }
+  return false;
+}
+
 /// Sides that are lit by what escaping rays would come to.
 bool is_lit(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
             std::span<const Patch* const> emitters, const Patch& patch, const Plane& plane) {
   const PlaneId plane_class = surfaces.surfaces[index(patch.surface)].plane_class;
   return std::ranges::any_of(scene.lights,
                              [&](const PunctualLight& light) {
+                               return sees_light(rays, patch, plane, plane_class, light);
+                             }) ||
+         std::ranges::any_of(scene.area_lights,
+                             [&](const AreaLight& light) {
                                return sees_light(rays, patch, plane, plane_class, light);
                              }) ||
          std::ranges::any_of(emitters, [&](const Patch* emitter) {
@@ -117,7 +137,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
   for (std::size_t p = 0; p < dark.size(); ++p)
     if (material_of_patch(surfaces.patches[p]).unlit)
       dark[p] = {0, 0}; // it is seen in the dark
-  const std::size_t sources = emitters.size() + scene.lights.size();
+  const std::size_t sources = emitters.size() + scene.lights.size() + scene.area_lights.size();
   if (double_sided * sources * 2 * probe_points > max_emitter_probes ||
       !is_dark(scene.background))
     return dark;

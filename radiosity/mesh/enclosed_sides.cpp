@@ -56,6 +56,9 @@ std::vector<TriangleCorners> lamps_of(const Scene& scene, double above) {
   for (const PunctualLight& light : scene.lights)
     if (light.kind != PunctualKind::directional)
       lamps.push_back({light.position, light.position, light.position});
+  for (const AreaLight& light : scene.area_lights)
+    for (std::size_t k = 2; k < light.corners.size(); ++k)
+      add({light.corners[0], light.corners[k - 1], light.corners[k]}, above * light.axis);
   return lamps;
 }
 

@@ -6,6 +6,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
+
 namespace meninas {
 
 /// The plane that a point lies on, or none: what a ray from a little above it, straight down, meets
@@ -27,13 +29,15 @@ static PlaneId plane_under(const LightScene& light, const QueryPoint& point) {
 std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
                                                   SentLight reflected,
                                                   std::span<const QueryPoint> points,
-                                                  const PointQuerySettings& settings) {
+                                                  const PointQuerySettings& settings,
+                                                  const Progress& progress) {
   FormFactorSettings rays = settings.form_factors;
   rays.method = FormFactorMethod::rays;
   const PointGathering gathering(light, std::move(reflected), rays, settings.direct,
                                  {.rays = settings.rays, .cluster_shadow_rays = 32});
   std::vector<PointIrradiance> result(points.size());
   tbb::enumerable_thread_specific<PointWorkspace> spaces;
+  std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
     const Receiver receiver{points[k].position, points[k].normal, plane_under(light, points[k])};
     const auto seed = hash(settings.direct.seed, 0x90147, static_cast<std::uint32_t>(k));
@@ -47,6 +51,8 @@ std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
     for (std::size_t l = 0; l < spaces.local().indirect_by_lamp.size(); ++l)
       by_lamp[l] += spaces.local().indirect_by_lamp[l];
     result[k] = {all.total, direct, all.mirrored, std::move(by_lamp), inside};
+    if (progress)
+      progress("points", double(++done) / double(points.size()));
   });
   return result;
 }

@@ -43,10 +43,11 @@ struct PointIrradiance {
 };
 
 /// In the order of the points. `reflected` is B by ElementId, emission left out. A point within the
-/// tolerance of a surface that faces as it does, or the other way, lies on it.
+/// tolerance of a surface that faces as it does, or the other way, lies on it. What `progress` throws ends it.
 std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
                                                   SentLight reflected,
                                                   std::span<const QueryPoint> points,
-                                                  const PointQuerySettings& settings);
+                                                  const PointQuerySettings& settings,
+                                                  const Progress& progress = {});
 
 } // namespace meninas

@@ -28,22 +28,37 @@ bool is_room(const Scene& scene, const ClosedBody& body, const Bounds& bounds, d
   return false;
 }
 
+/// A light that has a place.
+struct PlacedLight {
+  std::string name;
+  Point3 position;
+};
+std::vector<PlacedLight> placed_lights(const Scene& scene) {
+  std::vector<PlacedLight> placed;
+  for (const PunctualLight& light : scene.lights)
+    if (light.kind != PunctualKind::directional)
+      placed.push_back({light.name, light.position});
+  for (const AreaLight& light : scene.area_lights) {
+    Point3 middle(0.0);
+    for (const Point3& corner : light.corners)
+      middle += corner / double(light.corners.size());
+    placed.push_back({light.name, middle});
+  }
+  return placed;
+}
+
 } // namespace
 
 std::vector<EnclosedLight> enclosed_lights(const Scene& scene, const SurfaceModel& surfaces) {
-  const bool has_place = std::ranges::any_of(scene.lights, [](const PunctualLight& light) {
-    return light.kind != PunctualKind::directional;
-  });
-  if (!has_place || scene.triangles.empty())
+  const std::vector<PlacedLight> lights = placed_lights(scene);
+  if (lights.empty() || scene.triangles.empty())
     return {};
   const Bounds all = bounds_of(scene);
   const double diagonal = glm::distance(all.low, all.high);
   std::vector<EnclosedLight> enclosed;
   const std::vector<std::uint8_t> wanted(scene.triangles.size(), 1);
   const std::vector<ClosedBody> bodies = find_closed_bodies(scene, surfaces, wanted);
-  for (const PunctualLight& light : scene.lights) {
-    if (light.kind == PunctualKind::directional)
-      continue;
+  for (const PlacedLight& light : lights) {
     const auto holder = std::ranges::find_if(bodies, [&](const ClosedBody& body) {
       const Bounds bounds = bounds_of(body.shell);
       const auto is_inside = [&](const Point3& x) {

@@ -3,6 +3,7 @@
 #include "radiosity/scene/cut_out_mirrors.h"
 #include "radiosity/mesh/small_surfaces.h"
 #include "radiosity/scene/surface_colour.h"
+#include "scenes/area_light.h"
 #include "scenes/sky/radiance_map.h"
 
 #include <algorithm>
@@ -118,6 +119,30 @@ static void add_portals(LightScene& light) {
   }
 }
 
+/// The flat lights that are no faces, as emitters.
+static void add_area_lights(LightScene& light) {
+  const std::vector<AreaLight>& lights = light.scene.area_lights;
+  for (std::uint32_t k = 0; k < lights.size(); ++k) {
+    Emitter emitter;
+    emitter.polygon = ConvexPolygon(lights[k].corners);
+    emitter.plane = {lights[k].axis, glm::dot(lights[k].axis, lights[k].corners[0])};
+    emitter.radiosity = std::numbers::pi * lights[k].radiance;
+    emitter.area = area_of(lights[k]);
+    emitter.area_light = k;
+    if (emitter.radiosity != Rgb(0.0))
+      light.emitters.push_back(emitter);
+  }
+}
+
+/// Adds those that are no faces: area lights, then the openings to the sky where it is theirs.
+static void add_faceless_emitters(LightScene& light, bool portals) {
+  add_area_lights(light);
+  if (portals)
+    add_portals(light);
+  light.side_of_emitter.resize(light.emitters.size(), none<SideId>);
+  light.emitter_tree = make_emitter_tree(light.emitters);
+}
+
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
                             const DecodedTextures& textures) {
@@ -153,8 +178,10 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
     if (emits(side))
       emitting_area += side_area;
   }
-  if (emitting_area > large_emitter_share * area)
+  if (emitting_area > large_emitter_share * area) {
+    add_faceless_emitters(light, false);
     return light;
+  }
 
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
     if (!emits(mesh.sides[s]))
@@ -163,9 +190,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
     add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
     light.side_of_emitter.resize(light.emitters.size(), static_cast<SideId>(s));
   }
-  add_portals(light);
-  light.side_of_emitter.resize(light.emitters.size(), none<SideId>);
-  light.emitter_tree = make_emitter_tree(light.emitters);
+  add_faceless_emitters(light, true);
   return light;
 }
 
@@ -176,8 +201,13 @@ void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> group
   lamps.sky = groups->sky == no_lamp ? 0 : groups->sky;
   for (const MeshSide& side : light.mesh.sides)
     lamps.of_side.push_back(emits(side) ? lamp_of(*groups, side.node, side.material) : no_lamp);
-  for (const SideId side : light.side_of_emitter)
-    lamps.of_emitter.push_back(side == none<SideId> ? lamps.sky : lamps.of_side[index(side)]);
+  for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+    const SideId side = light.side_of_emitter[k];
+    const Emitter& emitter = light.emitters[k];
+    lamps.of_emitter.push_back(side != none<SideId> ? lamps.of_side[index(side)]
+                               : emitter.shows_sky() ? lamps.sky
+                                                     : groups->of_area_light[emitter.area_light]);
+  }
   lamps.of_punctual = groups->of_light;
   lamps.of_punctual.resize(light.punctual.size(), groups->sun);
   light.lamp_groups = std::move(groups);

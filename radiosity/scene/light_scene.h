@@ -34,7 +34,7 @@ struct LightScene {
   const ElementMesh& mesh;
   const DecodedTextures& textures;
   LandingTable landing;
-  std::vector<Emitter> emitters; ///< those whose light is computed from the source
+  std::vector<Emitter> emitters; ///< those whose light is computed from the source; area lights always
   std::vector<std::uint8_t>
       from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
   LightTree emitter_tree;            ///< over the emitters
@@ -48,7 +48,7 @@ struct LightScene {
   std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
   SolidBodies solids;
   bool finely_tessellated = false; ///< its small surfaces share samples (small_elements.h)
-  std::vector<SideId> side_of_emitter; ///< none of portals
+  std::vector<SideId> side_of_emitter; ///< none of portals and area lights
   std::shared_ptr<const LampGroups> lamp_groups = nullptr; ///< null: light is not told apart by lamps
   LampShares lamps = {}; ///< of its own emitters
   std::vector<Rgb> emission_factors = {}; ///< by SideId: what textures make of emission counts so many times (relight.h); empty: once

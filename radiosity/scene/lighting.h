@@ -8,6 +8,8 @@
 
 #include "radiosity/scene/light_scene.h"
 
+#include <algorithm>
+
 namespace meninas {
 
 struct Lighting {
@@ -31,5 +33,12 @@ struct Lighting {
            const LightTree& tree, std::span<const PunctualLight> points = {})
       : scene(lit), worlds(seen_in), emitters(others), emitter_tree(tree), punctual(points) {}
 };
+
+/// Whether some of its light comes from no face and no sky: of punctual or area lights.
+inline bool sends_from_no_face(const Lighting& light) {
+  return !light.punctual.empty() || std::ranges::any_of(light.emitters, [](const Emitter& emitter) {
+    return emitter.area_light != no_area_light;
+  });
+}
 
 } // namespace meninas

@@ -158,23 +158,24 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
 }
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
-  if (plan.emitters == 0 && scene.lights.empty() && is_dark(scene.background)) {
+  if (plan.emitters == 0 && scene.lights.empty() && scene.area_lights.empty() &&
+      is_dark(scene.background)) {
     const bool shows = std::ranges::any_of(scene.materials, &Material::unlit);
     plan.warnings.push_back(fmt::format(
         "nothing emits light: {} will be black; --background 1 lights it from all around",
         shows ? "what is not unlit" : "the picture"));
   }
   const bool has_suns = scene.background.map && !scene.background.map->suns.empty();
-  const bool has_points = !scene.lights.empty() || has_suns;
+  const bool has_points = !scene.lights.empty() || !scene.area_lights.empty() || has_suns;
   if (has_points && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
-    plan.warnings.push_back("light of point, spot and directional lights is followed over the "
+    plan.warnings.push_back("light of point, spot, directional and area lights is followed over the "
                             "mirror worlds alone: what "
                             "small mirrors or longer chains of mirrors would throw is left out");
   }
   const auto solids =
       names_where(materials_where(scene, [](TriangleId) { return true; }), is_solid_glass);
   if (has_points && !solids.empty()) {
-    plan.warnings.push_back("solid glass does not bend the light of point, spot and directional "
+    plan.warnings.push_back("solid glass does not bend the light of point, spot, directional and area "
                             "lights: to that its faces are sheets, passed straight: " +
                             quoted_names(solids));
   }
@@ -305,6 +306,9 @@ std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const Tra
   if (plan.punctual_lights > 0) {
     sources.push_back(plural(plan.punctual_lights, "point, spot or directional light"));
   }
+  if (plan.area_lights > 0) {
+    sources.push_back(plural(plan.area_lights, "area light") + " that mirrors alone show");
+  }
   if (!sources.empty()) {
     stages.push_back(fmt::format("direct light: {}{}", fmt::join(sources, " and "),
                                  worlds > 0 ? ", also seen in mirrors" : ""));
@@ -329,6 +333,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   plan.mirror_list = list_mirrors(scene, plan.mirrors);
   plan.emitters = count_emitters(scene, surfaces);
   plan.punctual_lights = scene.lights.size();
+  plan.area_lights = scene.area_lights.size();
 
   const auto materials = materials_where(scene, [](TriangleId) { return true; });
   const auto count = [&](auto&& holds) {
@@ -345,6 +350,9 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   const bool grey_light = is_grey(scene.background) &&
                           std::ranges::all_of(scene.lights, [](const PunctualLight& light) {
                             return is_grey(light.intensity);
+                          }) &&
+                          std::ranges::all_of(scene.area_lights, [](const AreaLight& light) {
+                            return is_grey(light.radiance);
                           });
   const bool grey_vertices = std::ranges::all_of(
       scene.vertices, [](const Vertex& vertex) { return is_grey(Rgb(vertex.color)); });

@@ -23,6 +23,7 @@ struct TransportPlan {
   double world_tail = 0.0; ///< bound on the mean share of light from beyond the worlds (mirror_depth_bound.h)
   std::size_t emitters = 0; ///< emitting patch sides
   std::size_t punctual_lights = 0;
+  std::size_t area_lights = 0; ///< that are no faces
   std::size_t glossy = 0;       ///< materials that are metals too rough for a mirror
   std::size_t transmissive = 0; ///< materials
   std::size_t textured = 0;     ///< materials

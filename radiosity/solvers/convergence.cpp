@@ -1,8 +1,21 @@
 #include "radiosity/solvers/convergence.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meninas {
+
+/// Of the orders of magnitude by which the error has to fall: 0 to 1.
+template <typename Value>
+static double share_done(const Convergence<Value>& convergence) {
+  const double first = worst(convergence.error_bounds.front()),
+               now = worst(convergence.error_bounds.back());
+  if (!(now > convergence.tolerance))
+    return 1.0;
+  const double share = std::log(first / now) / std::log(first / convergence.tolerance);
+  return share > 0.0 ? std::min(share, 1.0) : 0.0;
+}
 
 template <typename Value>
 void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size) {
@@ -15,6 +28,8 @@ void record(Convergence<Value>& convergence, const Value& residual_norm, const V
                              (channel(residual_norm, band) / channel(size, band) + rounding);
   convergence.residuals.push_back(share_of(residual_norm, size));
   convergence.error_bounds.push_back(bound);
+  if (convergence.progress)
+    convergence.progress("solve", share_done(convergence));
 }
 
 template <typename Value>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "radiosity/transport/linear_system.h"
+#include "scenes/progress.h"
 
 namespace meninas {
 
@@ -15,6 +16,7 @@ struct Convergence {
   int max_iterations = 0;
   int iterations = 0;
   std::vector<Value> residuals, error_bounds; ///< ||r_k|| / ||B_k|| and G times that
+  Progress progress = {}; ///< told of every iterate
 };
 
 template <typename Value>

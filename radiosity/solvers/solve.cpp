@@ -70,6 +70,7 @@ SolverResult solve_system(const LinearSystem<Value>& whole, const SolverSettings
                     unsolvable ? unbounded
                                : amplification_bound(system, settings.max_iterations),
                     by_shots ? std::max<std::size_t>(1, shooters) : 1);
+  convergence.progress = plan.progress;
   SolverEnd end = SolverEnd::unsolvable;
   if (unsolvable) {
     record(convergence, maximum_norm(residual_of(whole, x)), maximum_norm(x));

@@ -4,6 +4,7 @@
 
 #include "radiosity/solvers/shooters.h"
 #include "radiosity/transport/form_factor_rows.h"
+#include "scenes/progress.h"
 
 #include <array>
 #include <cstdint>
@@ -31,6 +32,7 @@ struct SolverSettings {
 struct ShotPlan {
   Shooters shooters; ///< none: every unknown for itself
   ShotWatch watch;
+  Progress progress = {}; ///< told after every iterate, of any method; what it throws ends the solve
 };
 
 /// Why a solver stopped.

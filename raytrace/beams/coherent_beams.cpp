@@ -147,7 +147,8 @@ struct Search {
     const bool shows_lobes = !context.bsdfs.empty() && (has_side || face.mirrors) &&
                              has_lobes(material_of(light.scene, TriangleId{met->triangle}));
     const bool turns = face.mapped || (face.mirrors && face.curved);
-    if (shows_lobes || turns ||
+    const bool shows_lights = face.mirrors && !light.scene.area_lights.empty();
+    if (shows_lobes || turns || shows_lights ||
         (has_side && (face.mirrors || context.visible.shading[face.side].is_by_point())))
       return true;
     if (!face.mirrors || context.settings.mode != RenderMode::hybrid) {

@@ -20,9 +20,10 @@ bool is_same_mirror(const FaceRecord& a, const FaceRecord& b) {
 const FaceRecord* mirror_of_all(const RenderContext& context, const RayPacket& packet,
                                 const HitPacket& hits) {
   const LightScene& light = context.light;
-  // Where there is glass, rays are attenuated one by one.
+  // Where there is glass, rays are attenuated one by one, and one by one they show area lights.
   if (packet.count != packet_size || hits.triangle[0] == index(none<TriangleId>) ||
-      context.settings.mode != RenderMode::hybrid || light.has_glass)
+      context.settings.mode != RenderMode::hybrid || light.has_glass ||
+      !light.scene.area_lights.empty())
     return nullptr;
   const FaceRecord& first = face_of(light.landing, hits, 0);
   if (!is_same_mirror(first, first) || meets_lobes(context, first, hits, 0))

@@ -111,14 +111,14 @@ void warn_of_scene(const BakeRequest& request, const Scene& scene, const FileCha
   if (!charts.two_lit.empty())
     warn(events, fmt::format("double-sided faces show the light of their brighter side on both, in nodes: {}",
                              quoted_names(charts.two_lit)));
-  if (request.direct && !scene.lights.empty())
+  if (request.direct && (!scene.lights.empty() || !scene.area_lights.empty()))
     warn(events, "the lights of the file are in the lightmap: a viewer in which they shine counts them twice "
                  "(--direct off leaves them out)");
 }
 
 nlohmann::json extras_of(const BakeRequest& request, const Lightmap& map, double unit) {
   nlohmann::json extras{{"quantity", request.direct ? "irradiance" : "irradiance without direct light"},
-                        {"encoding", "linear"},
+                        {"encoding", "sRGB"},
                         {"unit", unit == 1.0 ? "W/m^2" : "lux"},
                         {"factor", map.factor * unit}};
   if (!map.shown.pixels.empty())

@@ -4,7 +4,7 @@
 //   TEXCOORD_n of the primitives that are shown, n the first number that none of them has, at least 1: the place in
 //     the map. Primitives with fewer sets get those between filled with the same coordinates. Vertices whose
 //     triangles are in several charts are there as often, with all their attributes and targets.
-//   MOZ_lightmap {index, texCoord, intensity} of their materials: irradiance = intensity * texel, linear, so that
+//   MOZ_lightmap {index, texCoord, intensity} of their materials: irradiance = intensity * texel, decoded from sRGB as the extension asks, so that
 //     outgoing radiance = albedo / pi * irradiance, as three.js has it.
 //   where asked for, a variant of KHR_materials_variants: one unlit material with the colours of the room.
 // A mesh that several nodes or copies show is there once for each; copies of EXT_mesh_gpu_instancing become

@@ -55,19 +55,6 @@ void each_view(Value& json, Visit visit) {
   }
 }
 
-void collect_extensions(const Json& json, std::set<std::string>& names) {
-  if (!json.is_structured())
-    return;
-  for (const auto& [key, value] : json.items()) {
-    if (json.is_object() && key == "extras")
-      continue;
-    if (json.is_object() && key == "extensions" && value.is_object())
-      for (const auto& extension : value.items())
-        names.insert(extension.key());
-    collect_extensions(value, names);
-  }
-}
-
 std::string mime_type_of(std::span<const unsigned char> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("\x89PNG"))
@@ -259,7 +246,7 @@ void DocumentEdit::take_in_images(std::vector<std::string>& warnings) {
 
 void DocumentEdit::forget_extensions() {
   std::set<std::string> names;
-  collect_extensions(root_, names);
+  gltf::collect_extensions(root_, names);
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
     const auto found = root_.find(list);
     if (found == root_.end())

@@ -1,6 +1,7 @@
 #include "runs/bake/lightmap.h"
 
 #include "image/codecs/png_encoding.h"
+#include "image/display.h"
 #include "image/image_file.h"
 #include "radiosity/scene/surface_colour.h"
 #include "radiosity/solution/scene_places.h"
@@ -9,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -193,6 +195,28 @@ static float rounding_threshold(int x, int y) {
   return static_cast<float>(t - std::floor(t));
 }
 
+/// Codes of sRGB. Between two of them light is rounded up as often as makes their mean its own, for what filters decodes first.
+static std::vector<std::uint8_t> rounded_codes(const Image& image, double scale) {
+  std::array<float, 256> linear{};
+  for (std::size_t code = 0; code < linear.size(); ++code)
+    linear[code] = srgb_decode(static_cast<float>(code) / 255.0F);
+  std::vector<std::uint8_t> codes;
+  codes.reserve(3 * image.pixels.size());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float threshold = rounding_threshold(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const float light = std::clamp(static_cast<float>(scale) * image.at(x, y)[c], 0.0F, 1.0F);
+        const auto above = std::ranges::upper_bound(linear, light);
+        const auto code = static_cast<std::size_t>(above - linear.begin()) - 1;
+        const bool up = above != linear.end() &&
+                        light - linear[code] > (1.0F - threshold) * (linear[code + 1] - linear[code]);
+        codes.push_back(static_cast<std::uint8_t>(code + (up ? 1 : 0)));
+      }
+    }
+  return codes;
+}
+
 Lightmap fill_lightmap(const IrradianceField& field, const VertexIrradiance& values,
                        const std::vector<Chart>& charts, const LightmapLayout& layout,
                        WithShown with_shown) {
@@ -210,18 +234,9 @@ Lightmap fill_lightmap(const IrradianceField& field, const VertexIrradiance& val
 }
 
 std::vector<std::byte> irradiance_png(const Lightmap& map) {
-  std::vector<std::uint8_t> codes;
-  codes.reserve(3 * map.irradiance.pixels.size());
-  const float scale = static_cast<float>(255.0 / map.factor);
-  for (int y = 0; y < map.irradiance.height; ++y)
-    for (int x = 0; x < map.irradiance.width; ++x) {
-      const float threshold = rounding_threshold(x, y);
-      for (int c = 0; c < 3; ++c)
-        codes.push_back(static_cast<std::uint8_t>(
-            std::clamp(scale * map.irradiance.at(x, y)[c] + threshold, 0.0F, 255.0F)));
-    }
-  return encode_png(map.irradiance.width, map.irradiance.height, codes, Compression::small,
-                    {"Comment", fmt::format("linear; irradiance in W/m^2 is {:.9g} code / 255", map.factor)});
+  return encode_png(
+      map.irradiance.width, map.irradiance.height, rounded_codes(map.irradiance, 1.0 / map.factor), Compression::small,
+      {"Comment", fmt::format("sRGB; irradiance in W/m^2 is {:.9g} of the decoded colour", map.factor)});
 }
 
 std::vector<std::byte> shown_png(const Lightmap& map) {

@@ -309,6 +309,7 @@ std::string plan_json(const TransportPlan& plan, const std::vector<std::string>&
                   {"worlds", worlds_json(world_figures(plan))},
                   {"emitters", plan.emitters},
                   {"punctual_lights", plan.punctual_lights},
+                  {"area_lights", plan.area_lights},
                   {"glossy", plan.glossy},
                   {"transmissive", plan.transmissive},
                   {"textured", plan.textured},

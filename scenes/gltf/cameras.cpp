@@ -178,8 +178,8 @@ static void bring_near(const Reach& reach, Camera& camera, Findings& findings) {
   camera.half_height = std::min(camera.half_height, reach.distance);
 }
 
-static std::string first_name(const Document& document, std::size_t node, std::string_view array,
-                              std::size_t index, std::string_view kind) {
+std::string first_name(const Document& document, std::size_t node, std::string_view array,
+                       std::size_t index, std::string_view kind) {
   const auto of_node = name_of(element(document.root, "nodes", node));
   if (!of_node.empty())
     return of_node;

@@ -98,6 +98,8 @@ static const Json* array_of(const Json& root, std::string_view array) {
     return find(root, {"extensions", "KHR_lights_punctual", array});
   if (array == "iesLights")
     return find(root, {"extensions", "EXT_lights_ies", "lights"});
+  if (array == "areaLights")
+    return find(root, {"extensions", "EXT_lights_area", "lights"});
   if (array == "imageBasedLights")
     return find(root, {"extensions", "EXT_lights_image_based", "lights"});
   if (array == "variants")
@@ -114,6 +116,19 @@ const Json& element(const Json& root, std::string_view array, std::size_t index)
   const auto* value = array_of(root, array);
   expects(value && index < value->size(), "an index into the glTF file that was not checked");
   return (*value)[index];
+}
+
+void collect_extensions(const Json& json, std::set<std::string>& names) {
+  if (!json.is_structured())
+    return;
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_object() && key == "extras")
+      continue;
+    if (json.is_object() && key == "extensions" && value.is_object())
+      for (const auto& extension : value.items())
+        names.insert(extension.key());
+    collect_extensions(value, names);
+  }
 }
 
 std::string one_line(std::string text) {

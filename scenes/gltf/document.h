@@ -98,6 +98,9 @@ const Json& element(const Json& root, std::string_view array, std::size_t index)
 
 /// Text of the file made fit for a message: control characters become spaces.
 std::string one_line(std::string text);
+
+/// Adds the names of the extensions in use anywhere below, declared or not, but for what is in extras.
+void collect_extensions(const Json& json, std::set<std::string>& names);
 /// As much of it as a line has room for, cut between characters of UTF-8.
 std::string excerpt(std::string_view text);
 std::string name_of(const Json& object);

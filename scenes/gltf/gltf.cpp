@@ -20,6 +20,7 @@ namespace meninas {
 using namespace gltf;
 
 static constexpr std::string_view extensions_read[] = {
+    "EXT_lights_area",
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -50,21 +51,6 @@ static constexpr std::string_view extensions_read[] = {
 
 static bool is_read(const std::string& extension) {
   return std::ranges::find(extensions_read, extension) != std::end(extensions_read);
-}
-
-/// Extensions in use anywhere below, declared or not.
-/// The nesting was bounded when the text was parsed.
-static void collect_extensions(const Json& json, std::set<std::string>& names) {
-  if (!json.is_structured())
-    return;
-  for (const auto& [key, value] : json.items()) {
-    if (json.is_object() && key == "extras")
-      continue;
-    if (json.is_object() && key == "extensions" && value.is_object())
-      for (const auto& extension : value.items())
-        names.insert(extension.key());
-    collect_extensions(value, names);
-  }
 }
 
 /// What a file loses without it: the look of its materials, no more.
@@ -188,6 +174,7 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   mark_smooth_surfaces(scene);
   read_cameras(document, nodes, scene, findings);
   read_lights(document, nodes, scene, findings);
+  read_area_lights(document, nodes, scene, findings);
   read_image_based_light(document, scene, findings);
   for (const std::string& light : settle_lights(scene))
     findings.about("lights in the plane of a face are put before it", light);

@@ -231,11 +231,14 @@ constexpr Rule node_luminaire[] = {
     {.name = "multiplier", .kind = number},
     {.name = "color", .kind = numbers, .length = 3},
 };
+constexpr Rule node_area_light[] = {
+    {.name = "light", .kind = index, .presence = required, .target = "areaLights"}};
 constexpr Rule instancing[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
 constexpr Rule visibility[] = {{.name = "visible", .kind = boolean}};
 constexpr Rule levels_of_detail[] = {{.name = "ids", .kind = indices, .target = "nodes"}};
 constexpr Rule node_extensions[] = {
+    {.name = "EXT_lights_area", .kind = object, .fields = node_area_light},
     {.name = "EXT_lights_ies", .kind = object, .fields = node_luminaire},
     {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
     {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
@@ -294,6 +297,17 @@ constexpr Rule light[] = {
 };
 constexpr Rule lights[] = {
     {.name = "lights", .kind = objects, .presence = required, .fields = light}};
+constexpr Rule rectangle[] = {{.name = "aspect", .kind = number}};
+constexpr Rule area_light[] = {
+    name_rule,
+    {.name = "type", .kind = text},
+    {.name = "color", .kind = numbers, .length = 3},
+    {.name = "intensity", .kind = number},
+    {.name = "size", .kind = number},
+    {.name = "rect", .kind = object, .fields = rectangle},
+};
+constexpr Rule area_lights[] = {
+    {.name = "lights", .kind = objects, .presence = required, .fields = area_light}};
 constexpr Rule variant[] = {{.name = "name", .kind = text, .presence = required}};
 constexpr Rule variants[] = {
     {.name = "variants", .kind = objects, .presence = required, .fields = variant}};
@@ -312,6 +326,7 @@ constexpr Rule ies_light[] = {
 constexpr Rule ies_lights[] = {
     {.name = "lights", .kind = objects, .presence = required, .fields = ies_light}};
 constexpr Rule root_extensions[] = {
+    {.name = "EXT_lights_area", .kind = object, .fields = area_lights},
     {.name = "EXT_lights_ies", .kind = object, .fields = ies_lights},
     {.name = "EXT_lights_image_based", .kind = object, .fields = image_based_lights},
     {.name = "KHR_lights_punctual", .kind = object, .fields = lights},

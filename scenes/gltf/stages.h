@@ -72,6 +72,14 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                  Findings& findings);
 
+/// The name of a node, or of what it shows, or `kind` and that one's index.
+std::string first_name(const Document& document, std::size_t node, std::string_view array,
+                       std::size_t index, std::string_view kind);
+
+/// Those of EXT_lights_area.
+void read_area_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
+                      Findings& findings);
+
 /// The settings' units; else what the file's asset.extras.light_units says, which is told; else radiometric.
 LightUnits light_units_of(const Document& document, Findings& findings);
 

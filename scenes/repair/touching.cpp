@@ -245,9 +245,45 @@ std::vector<NodeId> separate_touching(Scene& scene) {
   return {moved.begin(), moved.end()};
 }
 
+/// Puts area lights before the faces in whose plane they are. Adds their names.
+static void settle_area_lights(Scene& scene, std::vector<std::string>& names) {
+  const double touch = touch_of(scene);
+  for (AreaLight& light : scene.area_lights) {
+    Bounds around;
+    for (const Point3& corner : light.corners) {
+      around.low = glm::min(around.low, corner - touch);
+      around.high = glm::max(around.high, corner + touch);
+    }
+    const double at = glm::dot(light.axis, light.corners[0]);
+    double way = 0.0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      const Material& material = material_of(scene, TriangleId{t});
+      const auto p = corners(scene, TriangleId{t});
+      const Bounds box{glm::min(p[0], glm::min(p[1], p[2])), glm::max(p[0], glm::max(p[1], p[2]))};
+      const bool apart = glm::any(glm::greaterThan(box.low, around.high)) ||
+                         glm::any(glm::greaterThan(around.low, box.high));
+      if (apart || is_glass(material) || material.alpha_mode != AlphaMode::opaque)
+        continue;
+      double farthest = 0.0; // of the triangle's corners and the light's from one plane
+      for (const Point3& corner : p)
+        farthest = std::max(farthest, std::abs(glm::dot(light.axis, corner) - at));
+      if (farthest <= touch)
+        way = std::max(way, glm::dot(light.axis, p[0]) - at + 2.0 * touch);
+    }
+    for (Point3& corner : light.corners)
+      corner += way * light.axis;
+    if (way > 0.0)
+      names.push_back(light.name);
+  }
+}
+
 std::vector<std::string> settle_lights(Scene& scene) {
   std::vector<std::string> names;
-  if (scene.triangles.empty() || scene.lights.empty())
+  if (scene.triangles.empty())
+    return names;
+  if (!scene.area_lights.empty())
+    settle_area_lights(scene, names);
+  if (scene.lights.empty())
     return names;
   const Precision precision(scene);
   const double touch = touch_of(scene);

@@ -16,6 +16,7 @@
 //   A point or spot light within t of a face that is not glass is put 2 t before it: a spot to the
 //   side to which it shines, a point light before the front of a face of one side. Before a face of
 //   two sides it stays on its side, if rounding does not make it, otherwise it comes to its front.
+//   An area light in the plane of such a face, and over it, is put 2 t before it, the way it shines.
 //   A point light there shines into the half-space before the face alone (a spot of 90 degrees):
 //   what it sends onto the face at its foot from no distance, nobody could see either.
 #pragma once

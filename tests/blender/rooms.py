@@ -133,9 +133,23 @@ def mirror_room():
     white, dark = diffuse("white", 0.6), diffuse("dark", 0.2)
     box("room", (0, 0, 0), (4, 4, 3), {"-x": white, "+x": dark, "+y": white, "-z": dark, "+z": dark}, leave_out=("-y",))
     rectangle("Mirror", (3.98, 2.0, 1.5), (0.0, 2.4, 0.0), (0.0, 0.0, 2.0), mirror("mirror", 0.98))
-    # The lamp fills its housing and has the housing's reflectance: to Cycles it is not there for other light, here it is.
     box("housing", (2.3, 1.3, 0.8), (2.7, 2.5, 2.0), diffuse("housing", 0.8), leave_out=("+x",))
     light("Lamp", "AREA", 300.0, (2.302, 1.9, 1.4), (0.0, math.radians(-90.0), 0.0), shape="SQUARE", size=1.2)
+    camera((2.0, -4.2, 1.5), (2.0, 0.0, 1.5), 45.0)
+    return scene
+
+
+def hanging_lamps():
+    """A square, a disc and a scaled ellipse that hang in a room with a mirror: to other light, and to the camera, they are not there,
+    so that the ceiling above them is lit from below. The mirror shows them."""
+    scene = empty()
+    white, dark = diffuse("white", 0.7), diffuse("dark", 0.3)
+    box("room", (0, 0, 0), (4, 4, 3), {"-x": white, "+x": white, "+y": white, "-z": white, "+z": dark}, leave_out=("-y",))
+    rectangle("Mirror", (2.0, 3.98, 1.2), (2.4, 0.0, 0.0), (0.0, 0.0, 1.6), mirror("mirror", 0.98))
+    light("Square", "AREA", 150.0, (1.0, 1.2, 1.6), shape="SQUARE", size=1.0, color=(1.0, 0.8, 0.5))
+    light("Disc", "AREA", 80.0, (3.0, 2.6, 1.9), (math.radians(150.0), 0.0, 0.0), shape="DISK", size=0.8)
+    oval = light("Oval", "AREA", 60.0, (2.2, 2.0, 2.2), (0.0, math.radians(40.0), math.radians(30.0)), shape="ELLIPSE", size=0.5, size_y=0.3)
+    oval.scale = (1.5, 1.0, 1.0)
     camera((2.0, -4.2, 1.5), (2.0, 0.0, 1.5), 45.0)
     return scene
 
@@ -151,4 +165,4 @@ def world_room():
     return scene
 
 
-ROOMS = {"cornell": cornell, "mirror_room": mirror_room, "world_room": world_room}
+ROOMS = {"cornell": cornell, "mirror_room": mirror_room, "hanging_lamps": hanging_lamps, "world_room": world_room}

@@ -326,7 +326,7 @@ TEST_F(Outputs, ThePlanAsJson) {
   const Outcome outcome = run("plan", {"--json"});
   const json plan = json::parse(outcome.out);
   EXPECT_EQ(keys_of(plan), (std::set<std::string>{
-                               "units", "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights",
+                               "units", "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights", "area_lights",
                                "glossy", "transmissive", "textured", "variants", "bands", "closed", "patches",
                                "elements", "expected", "stages", "ignored", "warnings", "odd"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);

@@ -39,6 +39,16 @@ Error error_of(const Call& call) {
   return {Error::Kind::cancelled, "nothing went wrong"};
 }
 
+TEST(Library, NodesEmitWhatTheyAreTold) {
+  const Room room = gallery("furnace"), dark = room.emitting({{"x0", {0.0, 0.0, 0.0}}});
+  // One wall of six less: the others send less back to each other too, and the room itself is as it was.
+  const auto before = room.solve(), after = dark.solve();
+  for (std::size_t k = 0; k < after.irradiance().size(); ++k)
+    EXPECT_LT(after.irradiance()[k], before.irradiance()[k]);
+  EXPECT_EQ(copied(room.solve().irradiance()), copied(before.irradiance()));
+  EXPECT_THAT(error_of([&] { room.emitting({{"nobody", {1.0, 1.0, 1.0}}}); }).what(), HasSubstr("no node 'nobody'"));
+}
+
 TEST(Library, ARoomNamesWhatItHas) {
   const Room room = gallery("cornell-mirror");
   EXPECT_THAT(room.cameras(), ElementsAre("main", "mirror"));

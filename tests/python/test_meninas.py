@@ -96,6 +96,17 @@ class Solutions(unittest.TestCase):
         numpy.testing.assert_array_equal(again.irradiance, solution.irradiance)
         numpy.testing.assert_array_equal(again.render(size="16x16"), solution.render(size="16x16"))
 
+    def test_nodes_emit_what_they_are_told(self):
+        # Radiosity is linear in its one lamp: 17, 12 and 4 W/m^2/sr are pi times as much radiosity.
+        room = gallery("cornell")
+        told = room.solve(emission={"lamp": 2.0 * numpy.pi * numpy.array([17.0, 12.0, 4.0])})
+        numpy.testing.assert_allclose(told.irradiance, 2.0 * room.solve().irradiance, rtol=1e-4, atol=1e-5)
+        self.assertEqual(float(abs(room.solve(emission={"lamp": 0.0}).irradiance).max()), 0.0)
+        with self.assertRaisesRegex(meninas.UsageError, "no node 'lmap', did you mean 'lamp'"):
+            room.solve(emission={"lmap": 1.0})
+        with self.assertRaisesRegex(meninas.UsageError, "of node 'lamp' is no light"):
+            room.emitting({"lamp": -1.0})
+
     def test_light_at_a_point_of_a_furnace_is_that_of_its_walls(self):
         # In a closed room of one radiosity B everything receives B, on any side of any point.
         solution = gallery("furnace").solve()
@@ -193,6 +204,26 @@ class Failures(unittest.TestCase):
 
         with self.assertRaises(KeyError):
             gallery("cornell-mirror").render(size="64x64", progress=fail)
+
+    def test_control_c_ends_points_and_rows_too(self):
+        solution = gallery("meninas").solve()
+        factors = gallery("furnace").form_factors(elements=500)
+        points = numpy.full((200000, 3), 1.0)
+        for call in (lambda: solution.irradiance_at(points, [[0.0, 1.0, 0.0]]),
+                     lambda: factors.solve(tolerance=1e-300, steps=10**9, solver="jacobi")):
+            threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+        told = []
+        factors.solve(progress=lambda stage, done: told.append((stage, done)))
+        with self.assertRaises(meninas.Cancelled):
+            solution.irradiance_at(points, [[0.0, 1.0, 0.0]], progress=lambda stage, done: False)
+
+    def test_plan_is_of_the_room_that_was_read(self):
+        path = self.without_camera()
+        room = meninas.load(path, quality="draft", warning=None)
+        path.unlink()
+        self.assertGreaterEqual(room.plan()["emitters"], 1)
 
     def test_control_c_ends_a_long_call(self):
         room = gallery("meninas")

@@ -61,7 +61,7 @@ static Nodes coarser_levels(const Json& root, Findings& findings) {
 static bool take_sights(Json& node) {
   bool had = node.erase("mesh") > 0;
   if (const auto extensions = node.find("extensions"); extensions != node.end())
-    for (const char* lights : {"EXT_lights_ies", "KHR_lights_punctual"})
+    for (const char* lights : {"EXT_lights_area", "EXT_lights_ies", "KHR_lights_punctual"})
       had = extensions->erase(lights) > 0 || had;
   return had;
 }

@@ -161,12 +161,12 @@ TEST(NodeLight, CornersTellThePartOfPunctualLights) {
   scene.lights = {point};
   const auto l = lit(scene, {.element_size = 1.0 / 32.0});
   const DirectIrradiance both = by_corners(*l);
-  ASSERT_EQ(both.punctual.size(), both.irradiance.size());
+  ASSERT_EQ(both.entering.size(), both.irradiance.size());
   scene.materials.front().emission = Rgb(0.0);
   const auto dark = lit(scene, {.element_size = 1.0 / 32.0});
   const DirectIrradiance alone = by_corners(*dark);
   for (const std::string plate : {"floor", "ceiling"}) {
-    const double part = mean_over(*l, both.punctual, plate).g;
+    const double part = mean_over(*l, both.entering, plate).g;
     EXPECT_GT(part, 0.1);
     EXPECT_NEAR(part, mean_over(*dark, alone.irradiance, plate).g, 1e-6);
   }

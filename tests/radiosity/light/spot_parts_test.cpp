@@ -48,7 +48,7 @@ double arrived(const LitScene& l) {
   SharedLightWorkspace work;
   for (std::uint32_t e = 0; e < l.mesh.area.size(); ++e) {
     const MeanLight mean = direct_irradiance(*l.light, ElementId{e}, 0, {}, work);
-    EXPECT_EQ(mean.punctual, mean.total);
+    EXPECT_EQ(mean.entering, mean.total);
     sum += l.mesh.area[e] * mean.total.r;
   }
   return sum;

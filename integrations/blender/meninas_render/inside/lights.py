@@ -8,11 +8,7 @@ sun of strength S gives S W/m^2, and an area lamp of P watts and A square metres
 import math
 
 import bpy
-
-DISC_CORNERS = 64
-# The reflectance of a lamp's face. Cycles' lamps are not there for other light; a face that reflects most of it is
-# closer to that than a black one. Blender's default material has the same.
-FACE_REFLECTANCE = 0.8
+from mathutils import Matrix
 
 
 def _shader_factor(light, warnings, name):
@@ -44,23 +40,36 @@ def _face(light, scale):
     return width * abs(scale.x), height * abs(scale.y), light.shape in {"DISK", "ELLIPSE"}
 
 
-def light_of(thing, warnings):
+def _warn_of_area(thing, light, warnings):
+    """Of what Cycles' area lamps can be told and ours cannot."""
+    if getattr(light, "spread", math.pi) < math.pi - 1e-3:
+        warnings.append(f"area lamp '{thing.name}': its spread is left out, it shines evenly")
+    if getattr(thing, "visible_camera", False):
+        warnings.append(f"area lamp '{thing.name}': mirrors alone show it, the camera does not")
+
+
+def _is_portal(light):
+    return bool(getattr(getattr(light, "cycles", None), "is_portal", False))
+
+
+def light_of(thing, matrix, warnings):
     light = thing.data
+    if light.type == "AREA" and _is_portal(light):
+        return None  # it guides Cycles' rays and shines no light; Meninas finds windows itself
     power = _watts(light, thing.name, warnings)
     if max(power) <= 0.0:
         if min(power) < 0.0:
             warnings.append(f"light '{thing.name}': negative light is left out")
         return None
     if light.type == "AREA":
-        width, height, is_round = _face(light, thing.matrix_world.to_scale())
+        width, height, is_round = _face(light, matrix.to_scale())
         area = width * height * (math.pi / 4.0 if is_round else 1.0)
         if area <= 0.0:
             warnings.append(f"area lamp '{thing.name}' has no area and is left out")
             return None
-        if getattr(light, "spread", math.pi) < math.pi - 1e-3:
-            warnings.append(f"area lamp '{thing.name}': its spread is left out, it shines evenly")
+        _warn_of_area(thing, light, warnings)
         return {"type": "AREA", "radiance": [p / (4.0 * area) for p in power], "round": is_round,
-                "size": (light.size, light.size_y if light.shape in {"RECTANGLE", "ELLIPSE"} else light.size)}
+                "size": (width, height)}
     values = {"type": light.type}
     if light.type == "SPOT":
         values.update(spot_size=light.spot_size, spot_blend=light.spot_blend)
@@ -68,29 +77,17 @@ def light_of(thing, warnings):
     return values
 
 
-def _outline(light):
-    width, height = light["size"]
-    if not light["round"]:
-        return [(x * width / 2.0, y * height / 2.0, 0.0) for x, y in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
-    # A polygon of the ellipse's area. Clockwise about +Z, so that the face shines along -Z as lamps do.
-    n = DISC_CORNERS
-    grow = math.sqrt(math.pi / (n / 2.0 * math.sin(2.0 * math.pi / n)))
-    turns = [-2.0 * math.pi * k / n for k in range(n)]
-    return [(grow * width / 2.0 * math.cos(t), grow * height / 2.0 * math.sin(t), 0.0) for t in turns]
-
-
-def data_of(light, label):
-    """A light for the exporter, or the face of an area lamp with a material that `finish` fills in."""
-    if light["type"] == "AREA":
-        mesh = bpy.data.meshes.new(label)
-        corners = _outline(light)
-        mesh.from_pydata(corners, [], [tuple(range(len(corners)))])
-        mesh.materials.append(bpy.data.materials.new(label))
-        return mesh
-    data = bpy.data.lights.new(label, light["type"])
-    if light["type"] == "SPOT":
-        data.spot_size, data.spot_blend = light["spot_size"], light["spot_blend"]
-    return data
+def placed(light, matrix):
+    """The node's matrix, and the object's data for the exporter: none of area lamps, which are EXT_lights_area, of world size."""
+    if light["type"] != "AREA":
+        data = bpy.data.lights.new("light", light["type"])
+        if light["type"] == "SPOT":
+            data.spot_size, data.spot_blend = light["spot_size"], light["spot_blend"]
+        return matrix, data
+    location, rotation, _ = matrix.decompose()
+    # Z upwards in Blender is Y in glTF, also of what a node itself has: its -Z, the way the light shines, is +Y here.
+    turn = Matrix.Rotation(-math.pi / 2.0, 4, "X")
+    return Matrix.LocRotScale(location, rotation, None) @ turn, None
 
 
 def _split(values):
@@ -113,19 +110,22 @@ def _light_index(gltf, node):
     return None
 
 
+def _finish_area(gltf, node, name, light):
+    width, height = light["size"]
+    colour, intensity = _split(light["radiance"])
+    area = {"name": name, "type": "disk" if light["round"] else "rect", "size": height, "color": colour,
+            "intensity": intensity}
+    area["extras" if light["round"] else "rect"] = {"aspect": width / height}
+    lights = gltf.setdefault("extensions", {}).setdefault("EXT_lights_area", {}).setdefault("lights", [])
+    node.setdefault("extensions", {})["EXT_lights_area"] = {"light": len(lights)}
+    lights.append(area)
+    _use(gltf, "EXT_lights_area")
+
+
 def finish(gltf, index, item):
     node, light = gltf["nodes"][index], item["light"]
     if light["type"] == "AREA":
-        colour, strength = _split(light["radiance"])
-        for primitive in gltf["meshes"][node["mesh"]]["primitives"]:
-            gltf["materials"][primitive["material"]] = {
-                "name": item["name"],
-                "pbrMetallicRoughness": {"baseColorFactor": [FACE_REFLECTANCE] * 3 + [1.0], "metallicFactor": 0.0,
-                                         "roughnessFactor": 1.0},
-                "emissiveFactor": colour,
-                "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength}},
-            }
-        _use(gltf, "KHR_materials_emissive_strength")
+        _finish_area(gltf, node, item["name"], light)
         return
     number = _light_index(gltf, node)
     if number is None:

@@ -108,7 +108,7 @@ def take(depsgraph):
             if item["mesh"] is None:
                 continue
         elif thing.type == "LIGHT" and instance.show_self:
-            item["light"] = lights.light_of(thing, warnings)
+            item["light"] = lights.light_of(thing, instance.matrix_world, warnings)
             if item["light"] is None:
                 continue
         else:
@@ -125,7 +125,7 @@ def take(depsgraph):
 
 
 def data_of(item, label):
-    """What an object of the exported scene shows: a mesh, a lamp as a face, a light, or the camera."""
+    """What an object of the exported scene shows: a mesh, a light or the camera; nothing of an area lamp."""
     if "mesh" in item:
         mesh = item["mesh"]
         location, rotation, scale = item["matrix"].decompose()
@@ -137,7 +137,8 @@ def data_of(item, label):
             item["matrix"].identity()
         return mesh
     if "light" in item:
-        return lights.data_of(item["light"], label)
+        item["matrix"], light = lights.placed(item["light"], item["matrix"])
+        return light
     camera = bpy.data.cameras.new(label)
     for name, value in item["camera"]["values"].items():
         setattr(camera, name, value)

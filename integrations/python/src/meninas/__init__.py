@@ -109,18 +109,18 @@ def _settings(named):
     return pairs
 
 
-def _factors(lamps):
-    """Lamps with three factors each: a number stands for a grey one."""
-    if not isinstance(lamps, dict):
-        raise UsageError(f"lamps: {lamps!r} is no dict of lamps and factors")
+def _colours(named, what):
+    """Names with three numbers each: one stands for a grey."""
+    if not isinstance(named, dict):
+        raise UsageError(f"{what}: {named!r} is no dict of names and numbers")
     pairs = []
-    for lamp, factor in lamps.items():
+    for lamp, factor in named.items():
         try:
             three = numpy.asarray(factor, dtype=float)
         except (TypeError, ValueError):
             three = numpy.zeros(2)
         if not isinstance(lamp, str) or three.shape not in ((), (1,), (3,)):
-            raise UsageError(f"lamps: {lamp!r} takes a number, or red, green and blue")
+            raise UsageError(f"{what}: {lamp!r} takes a number, or red, green and blue")
         pairs.append((lamp, [float(channel) for channel in numpy.broadcast_to(three, (3,))]))
     return pairs
 
@@ -201,16 +201,16 @@ class Solution:
     def relight(self, lamps):
         """The same room with lamps so many times as bright: a dict of numbers, or of red, green and blue; `all` is
         every lamp. Exact, without solving again. The solution has to know its lamps: `solve(by_lamp=True)`."""
-        return Solution(self._inner.relit(_factors(lamps)))
+        return Solution(self._inner.relit(_colours(lamps, "lamps")))
 
-    def irradiance_at(self, points, normals):
+    def irradiance_at(self, points, normals, progress=None):
         """What arrives at points, (n, 3) in metres, on the side of their normals: a dict of `total`, `direct` and
         `by_mirrors`, (n, 3) W/m^2, and `inside`, (n,), true where a point is inside of something."""
         points = numpy.atleast_2d(_array(points, "points"))
         normals = numpy.atleast_2d(_array(normals, "normals"))
         if normals.shape[0] == 1 and points.ndim == 2 and points.shape[0] > 1:
             normals = numpy.repeat(normals, points.shape[0], axis=0)
-        return self._inner.irradiance_at(points, normals)
+        return self._inner.irradiance_at(points, normals, progress)
 
 
 class FormFactors:
@@ -272,10 +272,11 @@ class FormFactors:
             block[k, at[at >= 0]] = data[begin:end][at >= 0]
         return block
 
-    def solve(self, emission=None, **settings):
+    def solve(self, emission=None, progress=None, **settings):
         """B = E + rho T B: a dict of `radiosity` (n, 3) W/m^2, `iterations`, `residual`, `error_bound`, `converged`.
         Emission (n, 3) W/m^2, of the scene where it is left out. Settings: solver, tolerance."""
-        return self._inner.solve(None if emission is None else _array(emission, "emission"), _settings(settings))
+        given = None if emission is None else _array(emission, "emission")
+        return self._inner.solve(given, _settings(settings), progress)
 
 
 class Room:
@@ -296,9 +297,16 @@ class Room:
         """Both passes for one camera, the first one of the file unless it is named: a Picture."""
         return Picture(self._inner.render(_settings({"camera": camera, **settings}), warning, progress))
 
-    def solve(self, lamps=None, by_lamp=None, warning=_warn, progress=None, **settings):
-        """Pass one: a Solution. `by_lamp` (True, "node" or "material") tells lamps apart; `lamps` is a dict of what
-        each is multiplied by."""
+    def emitting(self, emission):
+        """The same room where all faces of some nodes emit so much in place of what the file says: a dict of their names
+        and E in W/m^2, a number or red, green and blue. Its solutions belong to it, not to the file."""
+        return Room(self._inner.emitting(_colours(emission, "emission")))
+
+    def solve(self, lamps=None, by_lamp=None, warning=_warn, progress=None, emission=None, **settings):
+        """Pass one: a Solution. `emission` is a dict of nodes and what their faces emit, W/m^2 (see `emitting`);
+        `by_lamp` (True, "node" or "material") tells lamps apart; `lamps` is a dict of what each is multiplied by."""
+        if emission is not None:
+            return self.emitting(emission).solve(lamps, by_lamp, warning, progress, **settings)
         by_lamp = by_lamp or (True if lamps else None)
         solution = Solution(self._inner.solve(_settings({"by_lamp": by_lamp, **settings}), warning, progress))
         return solution.relight(lamps) if lamps else solution
