@@ -2,7 +2,8 @@
 //
 //   settings_table [--settings draft,normal,fine,0.02,0.01] [--without-paths] REFERENCES SCENE.gltf ...
 //
-// A name is a quality, a number an error that is wanted (runs/steering/steering.h). Pictures have the size of
+// A name is a quality, a number an error that is wanted (runs/steering/steering.h), whose steps are told to the
+// standard error. Pictures have the size of
 // REFERENCES/NAME.reference.exr. Printed, as rows of a table:
 //
 //   seconds    processor time of all threads, from the scene in memory to the picture with its estimate
@@ -89,9 +90,11 @@ Made by_quality(const KnownScene& known, Quality quality) {
 Made by_error(const KnownScene& known, double wanted) {
   RunFigures figures;
   const double before = processor_seconds();
+  RunEvents events;
+  events.note = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
   ViewPicture view = steer({known.scene(), known.camera, known.size(), {},
                             {.error = wanted, .seconds = {}}, 0.0, 0.0},
-                           {}, figures);
+                           events, figures);
   const double seconds = processor_seconds() - before;
   const SteeredChoice& choice = *figures.choice;
   double all = 0.0;

@@ -142,9 +142,7 @@ static double field_error(const MeasuredRun& run, const Parameters& knobs) {
   const double direct = square(e.mesh_direct);
   const double rest =
       std::max(square(e.mesh) - direct, edges ? 0.0 : square(unknown * e.mesh_direct));
-  // What the cells of a view leave of them does not ask for elements.
-  const double fewer = knobs.term == DiffuseTerm::direct ? 1.0 : std::pow(elements, -0.5);
-  return (edges ? direct * fewer : 0.0) +
+  return (edges ? direct * std::pow(elements, -0.5) : 0.0) +
          rest * std::pow(elements, -run.mesh_exponent) +
          square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
 }

@@ -2,7 +2,7 @@
 //
 // Costs are seconds, or rays where the same choice has to be made on every run: one unit in all of a run.
 // From a measured run with its parts of the error (raytrace/error/picture_error.h) and costs:
-//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide; none with direct light), the rest of mesh^2 r^-1;
+//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1;
 //                  pass one r^0.7: nodes that light does not ask for are not divided
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as direct light costs about so much
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.1 where they gather; pass two as the pixels that would take them

@@ -154,11 +154,12 @@ struct SourceSettings {
 };
 
 /// What light from emitters is off by, squared, in the mean of a pixel.
-/// Cells as small as pixels are off to either side of edges: means over four rays tell that with less noise.
+/// Cells as small as pixels are off to either side of edges: more rays in fewer pixels tell means with less noise.
 double source_error(Probing& probe, SourceSettings settings, const ProbeChoice& choice,
                     bool within_pixels, PictureError& error) {
-  constexpr int rays = 4;
-  const std::size_t count = choice.pixels.size() / (within_pixels ? 2 : 1);
+  constexpr int rays = 16, fewer = 4;
+  const std::size_t all = choice.pixels.size();
+  const std::size_t count = within_pixels ? (all + fewer - 1) / fewer : all;
   const auto pixels = std::span(choice.pixels).first(count);
   auto& [exact, shown] = settings;
   exact.samples = shown.samples = within_pixels ? rays : 1;

@@ -126,6 +126,7 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
   constexpr int max_steps = 8;
   constexpr double error_margin = 0.7,
                    time_margin = 0.7;  // of a goal, that a forecast is held against
+  constexpr double near = 1.5, near_margin = 0.9; // forecasts of little are more certain
   constexpr double max_growth = 20.0; // of the cost so far: the next run takes no more
   constexpr double at_once =
       0.125; // of the error: parts so much smaller are not known well enough to be met yet
@@ -143,8 +144,9 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
     if (request.goal.error && choice.reached)
       break;
     const MeasuredRun& measured = search.best->measured;
+    const double margin = search.error() < near * wanted ? near_margin : error_margin;
     next =
-        next_run(measured, steering.free, std::max(error_margin * wanted, at_once * search.error()),
+        next_run(measured, steering.free, std::max(margin * wanted, at_once * search.error()),
                  steering.counts_rays()
                      ? max_growth * search.rays
                      : std::min(time_margin * steering.left(), max_growth * steering.spent()));

@@ -181,9 +181,11 @@ TEST(PictureError, OfCellsWithinPixelsIsThatOfTheMeanOfAPixel) {
   add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, diffuse(0.5));
   add_polygon(scene, "left", {{-9, 1, 9}, {-9, 1, -9}, {-0.5, 1, -9}, {-0.5, 1, 9}}, diffuse(0.0));
   add_polygon(scene, "right", {{0.5, 1, 9}, {0.5, 1, -9}, {9, 1, -9}, {9, 1, 9}}, diffuse(0.0));
-  scene.punctual = {{.kind = PunctualKind::directional,
-                     .intensity = Rgb(10.0),
-                     .direction = glm::normalize(Vec3(0.13, -1.0, 0.0))}};
+  PunctualLight sun;
+  sun.kind = PunctualKind::directional;
+  sun.intensity = Rgb(10.0);
+  sun.direction = glm::normalize(Vec3(0.13, -1.0, 0.0));
+  scene.lights = {sun};
   scene.cameras = {look_at({0.1, 0.9, 0.9}, {0.1, 0.0, 0.0}, 1.2)};
   TwoPassSettings settings = quick();
   settings.render.diffuse.term = DiffuseTerm::direct;
