@@ -42,23 +42,29 @@ double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
 }
 
 /// What one hit takes that gathers with rays of its own.
-double gather_seconds(const MeasuredRun& run) {
+double gather_hit_cost(const MeasuredRun& run) {
   constexpr double source_rays = 128.0; // that cost as much as direct light
-  return run.error.gather_seconds * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
+  return run.gather_cost * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
 }
 
-double pass_two_seconds(const MeasuredRun& run, const Parameters& knobs) {
+/// Whether elements or rays change.
+bool solves_again(const MeasuredRun& run, const Parameters& knobs) {
+  return knobs.elements != run.knobs.elements || knobs.rays != run.knobs.rays;
+}
+
+double pass_two_cost(const MeasuredRun& run, const Parameters& knobs) {
   const double samples = samples_a_pixel(run, knobs.samples);
   const double share = samples / run.samples_a_pixel;
   if (knobs.term == run.knobs.term)
-    return run.pass_two_seconds * (knobs.term == DiffuseTerm::direct
-                                       ? (samples_of_vertices + samples) /
-                                             (samples_of_vertices + run.samples_a_pixel)
-                                       : share);
+    return run.pass_two_cost *
+           (knobs.term == DiffuseTerm::direct
+                ? (solves_again(run, knobs) ? samples_of_vertices + samples : samples) /
+                      (samples_of_vertices + run.samples_a_pixel)
+                : share);
   const double hits = run.pixels * (knobs.term == DiffuseTerm::direct
-                                        ? vertices_of_a_pixel * run.error.direct_seconds
-                                        : samples * gather_seconds(run));
-  return share * run.pass_two_seconds + hits;
+                                        ? vertices_of_a_pixel * run.direct_cost
+                                        : samples * gather_hit_cost(run));
+  return share * run.pass_two_cost + hits;
 }
 
 /// Samples drawn again to find out, of a pixel that is looked at:
@@ -74,7 +80,7 @@ double samples_drawn_again(int samples) {
 }
 
 /// What finding out the error takes.
-double estimate_seconds(const MeasuredRun& run, const Parameters& knobs) {
+double estimate_cost(const MeasuredRun& run, const Parameters& knobs) {
   constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
   constexpr double source_rays = 128.0;        // that cost as much as direct light
   const auto pixels = [](double elements) {
@@ -85,7 +91,7 @@ double estimate_seconds(const MeasuredRun& run, const Parameters& knobs) {
            of_camera_rays * samples_drawn_again(k.samples) /
                samples_drawn_again(Parameters{}.samples);
   };
-  return run.estimate_seconds * pixels(knobs.elements) / pixels(run.knobs.elements) *
+  return run.estimate_cost * pixels(knobs.elements) / pixels(run.knobs.elements) *
          of_a_pixel(knobs) / of_a_pixel(run.knobs);
 }
 
@@ -136,27 +142,25 @@ static double field_error(const MeasuredRun& run, const Parameters& knobs) {
   const double direct = square(e.mesh_direct);
   const double rest =
       std::max(square(e.mesh) - direct, edges ? 0.0 : square(unknown * e.mesh_direct));
-  // What the cells of a view leave of them does not ask for elements.
-  const double fewer = knobs.term == DiffuseTerm::direct ? 1.0 : std::pow(elements, -0.5);
-  return (edges ? direct * fewer : 0.0) +
+  return (edges ? direct * std::pow(elements, -0.5) : 0.0) +
          rest * std::pow(elements, -run.mesh_exponent) +
          square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
 }
 
 Forecast forecast(const MeasuredRun& run, const Parameters& knobs) {
   const PictureError& e = run.error;
-  const double elements = knobs.elements / run.knobs.elements,
-               rays = double(knobs.rays) / run.knobs.rays;
+  const double elements = knobs.elements / run.knobs.elements;
   const auto square = [](double x) { return x * x; };
   const double squared =
       field_error(run, knobs) + square(e.pixels) * pixel_decline(run, knobs) + square(e.solver);
   constexpr double source_rays = 128.0; // that cost as much as direct light
-  const bool again = elements != 1.0 || rays != 1.0;
-  const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /
-                                      (source_rays + run.knobs.rays)
-                                : 0.0;
+  constexpr double of_elements = 0.7;
+  const double pass_one = solves_again(run, knobs)
+                              ? run.pass_one_cost * std::pow(elements, of_elements) *
+                                    (source_rays + knobs.rays) / (source_rays + run.knobs.rays)
+                              : 0.0;
   return {std::sqrt(squared),
-          pass_one + pass_two_seconds(run, knobs) + estimate_seconds(run, knobs)};
+          pass_one + pass_two_cost(run, knobs) + estimate_cost(run, knobs)};
 }
 
 } // namespace meninas

@@ -1,7 +1,9 @@
-// How the error of a picture and the time it takes change with the settings, from one run to the next.
+// How the error of a picture and what it costs change with the settings, from one run to the next.
 //
-// From a measured run with its parts of the error (raytrace/error/picture_error.h) and seconds:
-//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide; none with direct light), the rest of mesh^2 r^-1; pass one r
+// Costs are seconds, or rays where the same choice has to be made on every run: one unit in all of a run.
+// From a measured run with its parts of the error (raytrace/error/picture_error.h) and costs:
+//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1;
+//                  pass one r^0.7: nodes that light does not ask for are not divided
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as direct light costs about so much
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.1 where they gather; pass two as the pixels that would take them
 //   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two three tenths of a hit a pixel more, of those that were made to find out: the vertices of the view's field
@@ -32,7 +34,8 @@ struct Parameters {
 struct MeasuredRun {
   Parameters knobs;
   PictureError error;
-  double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
+  double pass_one_cost = 0.0, pass_two_cost = 0.0, estimate_cost = 0.0;
+  double direct_cost = 0.0, gather_cost = 0.0; ///< of one hit with these terms; 0: not known
   double pixels = 0.0;
   double divided = 0.0;         ///< into so many elements, before the light had any divided further
   double samples_a_pixel = 4.0; ///< in the mean
@@ -50,8 +53,9 @@ double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine
 
 struct Forecast {
   double error = 0.0;
-  double seconds =
-      0.0; ///< of what has to be done anew: nothing of pass one where only pass two changes
+  /// Of what has to be done anew: nothing of pass one where only pass two changes,
+  /// nor of the view's field where only samples do.
+  double cost = 0.0;
 };
 Forecast forecast(const MeasuredRun& run, const Parameters& knobs);
 

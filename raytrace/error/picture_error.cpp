@@ -18,6 +18,10 @@ namespace {
 
 using Radiances = std::vector<glm::vec3>;
 
+struct Cost {
+  double seconds = 0.0, rays = 0.0;
+};
+
 /// Pixels on demand, and what they have taken.
 struct Probing {
   const IrradianceField& field;
@@ -25,10 +29,18 @@ struct Probing {
   const TwoPassSettings& settings;
   std::uint64_t rays = 0;
   Stopwatch watch = {};
+  double seconds = 0.0; ///< up to its last lap
 
-  /// Seconds since they were asked for last, by pixel.
-  double seconds_each(std::size_t pixels) {
-    return watch.lap() / double(std::max<std::size_t>(pixels, 1));
+  Cost so_far() {
+    seconds += watch.lap();
+    return {seconds, double(rays)};
+  }
+
+  /// By hit.
+  Cost each_since(const Cost& before, std::size_t hits) {
+    const Cost now = so_far();
+    const double n = double(std::max<std::size_t>(hits, 1));
+    return {(now.seconds - before.seconds) / n, (now.rays - before.rays) / n};
   }
 
   Radiances operator()(const RenderSettings& render, std::span<const glm::ivec2> pixels) {
@@ -49,6 +61,21 @@ double mean_of(std::size_t count, const Product& product) {
   return count > 0 ? sum / (3.0 * static_cast<double>(count)) : 0.0;
 }
 
+/// Of products whose mean is a square: at least the standard error of the mean, below which it is not known.
+template <typename Product>
+double known_mean(std::size_t count, const Product& product) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const glm::dvec3 p(product(k));
+    const double mean = (p.r + p.g + p.b) / 3.0;
+    sum += mean;
+    squares += mean * mean;
+  }
+  if (count == 0)
+    return 0.0;
+  return std::max(sum, std::sqrt(squares)) / static_cast<double>(count);
+}
+
 double mean_outside(const Image& picture, const std::vector<std::uint8_t>& emits) {
   double sum = 0.0, count = 0.0;
   for (std::size_t p = 0; p < emits.size(); ++p)
@@ -67,8 +94,12 @@ RenderSettings gathering_settings(const TwoPassSettings& settings) {
   render.samples = 1;
   render.max_bounces = RenderSettings{}.max_bounces;
   render.diffuse.term = DiffuseTerm::gather;
-  if (settings.render.diffuse.term == DiffuseTerm::interpolated)
+  if (settings.render.diffuse.term == DiffuseTerm::interpolated) {
+    constexpr int few = 16, many = 128; // or else their noise hides what is looked for
     render.diffuse.direct = pass_one.direct;
+    render.diffuse.direct.shadow_rays = std::max(render.diffuse.direct.shadow_rays, few);
+    render.diffuse.direct.penumbra_rays = std::max(render.diffuse.direct.penumbra_rays, many);
+  }
   render.diffuse.gather = pass_one.form_factors;
   render.diffuse.gather.method = FormFactorMethod::rays;
   render.diffuse.gather.max_bounces = FormFactorSettings{}.max_bounces;
@@ -83,6 +114,12 @@ bool is_capped(const TwoPassSettings& settings) {
 
 RenderSettings redrawn(RenderSettings settings, std::uint32_t draw) {
   settings.diffuse.draw = draw;
+  return settings;
+}
+
+/// Other camera rays of the same pixels.
+RenderSettings elsewhere(RenderSettings settings) {
+  settings.seed = hash(settings.seed, 0xe15e);
   return settings;
 }
 
@@ -111,10 +148,42 @@ double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
                  [&](std::size_t k) { return static_cast<float>(weight[k]) * c1[k] * c2[k]; });
 }
 
+/// Light from emitters as it is, and as the picture has it; one ray a pixel each.
+struct SourceSettings {
+  RenderSettings exact, shown;
+};
+
+/// What light from emitters is off by, squared, in the mean of a pixel.
+/// Cells as small as pixels are off to either side of edges: more rays in fewer pixels tell means with less noise.
+double source_error(Probing& probe, SourceSettings settings, const ProbeChoice& choice,
+                    bool within_pixels, PictureError& error) {
+  constexpr int rays = 16, fewer = 4;
+  const std::size_t all = choice.pixels.size();
+  const std::size_t count = within_pixels ? (all + fewer - 1) / fewer : all;
+  const auto pixels = std::span(choice.pixels).first(count);
+  auto& [exact, shown] = settings;
+  exact.samples = shown.samples = within_pixels ? rays : 1;
+  const auto off = [&](bool other, std::uint32_t draw) {
+    const auto at = [&](const RenderSettings& render) { return other ? elsewhere(render) : render; };
+    Radiances changes = probe(at(redrawn(exact, draw)), pixels);
+    const Radiances as_shown = probe(at(redrawn(shown, draw)), pixels);
+    std::ranges::transform(changes, as_shown, changes.begin(), std::minus<>{});
+    return changes;
+  };
+  const Cost before = probe.so_far();
+  const Radiances a = off(false, 3), b = off(true, 4);
+  const Cost each = probe.each_since(before, 2 * count * static_cast<std::size_t>(exact.samples));
+  error.direct_seconds = each.seconds;
+  error.direct_rays = each.rays;
+  return std::max(0.0, mean_of(count, [&](std::size_t k) {
+                    return static_cast<float>(choice.weight[k]) * a[k] * b[k];
+                  }));
+}
+
 /// What one camera ray a pixel shows is off:
 /// by two gatherings at the first pixels, and by direct light at all.
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
-                 SquaredErrors& errors, PictureError& error) {
+                 bool within_pixels, SquaredErrors& errors, PictureError& error) {
   const std::span<const glm::ivec2> pixels = choice.pixels;
   const RenderSettings gathering = gathering_settings(probe.settings);
   RenderSettings shown = probe.settings.render;
@@ -127,15 +196,15 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   }
   // What is computed at the hit is drawn alike in L_k, and is not in the difference:
   // its noise is the pixels'.
-  const Radiances l1 = probe(redrawn(shown, 3), interpolated ? pixels : first);
+  const Radiances l1 = probe(redrawn(shown, 3), first);
   const Radiances l2 = interpolated ? l1 : probe(redrawn(shown, 4), first);
-  probe.watch.lap();
+  const Cost before = probe.so_far();
   const Radiances g1 = probe(redrawn(gathering, 3), first),
                   g2 = probe(redrawn(gathering, 4), first);
-  error.gather_seconds = probe.seconds_each(2 * first.size());
+  const Cost gathering_cost = probe.each_since(before, 2 * first.size());
+  error.gather_seconds = gathering_cost.seconds;
+  error.gather_rays = gathering_cost.rays;
   const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
-  const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
-  errors.field = mean_of(first.size(), off);
 
   // Without direct light, whose noise is the pixels' or the mesh's,
   // draw 3 and 4 are those of the gathering alone.
@@ -144,15 +213,13 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     RenderSettings source = gathering;
     source.max_bounces = shown.max_bounces;
     source.diffuse.term = DiffuseTerm::direct;
-    s1 = probe(redrawn(source, 3), pixels);
-    s2 = probe(redrawn(source, 4), pixels);
-    error.direct_seconds = probe.seconds_each(2 * pixels.size());
-    const auto product = [&](std::size_t k) {
-      return weight(k) * (s1[k] - l1[k]) * (s2[k] - l1[k]);
-    };
-    errors.source = mean_of(pixels.size(), product);
-    errors.field += errors.source - mean_of(first.size(), product);
+    s1 = probe(redrawn(source, 3), first);
+    s2 = probe(redrawn(source, 4), first);
+    errors.source = source_error(probe, {source, shown}, choice, within_pixels, error);
   }
+  errors.field = errors.source + known_mean(first.size(), [&](std::size_t k) {
+                   return weight(k) * (g1[k] - s1[k]) * (g2[k] - s2[k]);
+                 });
   const auto apart = [&](std::size_t k) {
     const glm::vec3 change = (g1[k] - s1[k]) - (g2[k] - s2[k]);
     return weight(k) * change * change;
@@ -256,7 +323,8 @@ PictureError estimate_error(const IrradianceField& coarse, const Camera& camera,
     return error;
 
   SquaredErrors squared;
-  probe_field(probe, choice, static_cast<std::size_t>(how.gathered_pixels), squared, error);
+  probe_field(probe, choice, static_cast<std::size_t>(how.gathered_pixels),
+              picture.finer != nullptr, squared, error);
   probe_samples(probe, picture, emits, how.pixels, squared);
 
   // The parts make up the whole that was found, also where one of them alone was found larger.

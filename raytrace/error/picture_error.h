@@ -13,11 +13,19 @@
 //
 // where light that is computed at the hit in both is drawn alike, and drops out:
 // its noise is that of the pixels.
-// The first is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2
+// Of indirect light L_1 and L_2 are at the end of the same ray; of light from emitters, at as many
+// places as the picture can tell apart,
+//
+//   mean over pixels of (D_a - L_a)(D_b - L_b),      a and b means over different rays of the same pixel
+//
+// so that what is off to either side of an edge within a pixel does not count, which its samples do not show.
+// Products of both are left out: edges are off to either side. The first counts for no less than its standard
+// error: what is below that is not known. (The second's is that of the few pixels at edges that were met.)
+// The whole is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2
 // is noise of vertices (4/9 is the mean of the sum of squared weights of bilinear interpolation),
 // mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and
 // mesh^2 is the rest: what interpolation hides. Direct light is cheap and has the edges:
-// it is computed at many more pixels, and the difference that makes corrects the first mean.
+// it is computed at many more pixels.
 // pixels^2 is half the mean square of what another draw of all camera rays changes,
 // at pixels of each number of samples for themselves:
 // where sampling is adaptive, the few that have many have most of the error;
@@ -51,8 +59,8 @@ struct PictureError {
   double mean_radiance = 0.0; ///< what all are relative to
   std::uint64_t rays = 0;     ///< traced to find out
   double seconds = 0.0;
-  double direct_seconds = 0.0,
-         gather_seconds = 0.0; ///< that one hit took with these terms; 0: none was made
+  /// What one hit took with these terms; 0: none was made.
+  double direct_seconds = 0.0, gather_seconds = 0.0, direct_rays = 0.0, gather_rays = 0.0;
 };
 
 /// As render() made it.

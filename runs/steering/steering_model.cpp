@@ -28,11 +28,11 @@ std::vector<DiffuseTerm> terms(const MeasuredRun& run, const FreeKnobs& free) {
   std::vector<DiffuseTerm> all{run.knobs.term};
   if (!free.term)
     return all;
-  if (run.knobs.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0)
+  if (run.knobs.term == DiffuseTerm::interpolated && run.direct_cost > 0.0)
     all.push_back(DiffuseTerm::direct);
   // It is the dearest by far, and trusts what elements reflect: for where meshes do not help.
   constexpr double does_not_help = 0.7; // the exponent
-  if (run.knobs.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0 &&
+  if (run.knobs.term != DiffuseTerm::gather && run.gather_cost > 0.0 &&
       (!free.elements || run.mesh_exponent < does_not_help))
     all.push_back(DiffuseTerm::gather);
   return all;
@@ -83,7 +83,7 @@ std::string reasons(const MeasuredRun& run, const Parameters& next) {
 
 } // namespace
 
-NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds) {
+NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double cost) {
   constexpr double as_good = 1.01;
   const NextRun same{run.knobs, forecast(run, run.knobs), {}};
   if (same.forecast.error <= error)
@@ -92,7 +92,7 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
   double least = same.forecast.error;
   for (const Parameters& knobs : knobs_after(run, free)) {
     const Forecast then = forecast(run, knobs);
-    if (then.seconds > seconds || !(then.error < same.forecast.error))
+    if (then.cost > cost || !(then.error < same.forecast.error))
       continue;
     better.push_back({knobs, then, {}});
     least = std::min(least, then.error);
@@ -101,7 +101,7 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
   NextRun next = same;
   for (const NextRun& other : better)
     if (other.forecast.error <= std::max(error, as_good * least) &&
-        (next.knobs == run.knobs || other.forecast.seconds < next.forecast.seconds))
+        (next.knobs == run.knobs || other.forecast.cost < next.forecast.cost))
       next = other;
   next.why = reasons(run, next.knobs);
   return next;

@@ -21,8 +21,8 @@ struct NextRun {
 };
 
 /// The quickest combination of parameters predicted to bring the error below `error`, among those
-/// that are not below the present ones and fit into `seconds`. If none does, the quickest within a
+/// that are not below the present ones and cost no more than `cost`. If none does, the quickest within a
 /// hundredth of the lowest predicted error; the present parameters if none lowers it.
-NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
+NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double cost);
 
 } // namespace meninas

@@ -173,6 +173,41 @@ TEST(PictureError, OfGatheredLightIsThatOfWhatItIsGatheredFrom) {
   EXPECT_NEAR(coarse.error(settings, picture).mesh, error, 0.4 * error);
 }
 
+// Sun through a hole of 1 x 1 m onto a floor: light is one of two values, and all that cells as small as a
+// fifth of a pixel are off by is on both sides of the edges, within the pixels these cross.
+// One ray a pixel shows it; the mean of its sixteen hardly does.
+TEST(PictureError, OfCellsWithinPixelsIsThatOfTheMeanOfAPixel) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, diffuse(0.5));
+  add_polygon(scene, "left", {{-9, 1, 9}, {-9, 1, -9}, {-0.5, 1, -9}, {-0.5, 1, 9}}, diffuse(0.0));
+  add_polygon(scene, "right", {{0.5, 1, 9}, {0.5, 1, -9}, {9, 1, -9}, {9, 1, 9}}, diffuse(0.0));
+  PunctualLight sun;
+  sun.kind = PunctualKind::directional;
+  sun.intensity = Rgb(10.0);
+  sun.direction = glm::normalize(Vec3(0.13, -1.0, 0.0));
+  scene.lights = {sun};
+  scene.cameras = {look_at({0.1, 0.9, 0.9}, {0.1, 0.0, 0.0}, 1.2)};
+  TwoPassSettings settings = quick();
+  settings.render.diffuse.term = DiffuseTerm::direct;
+  settings.render.diffuse.refinement.finest = 0.2;
+  const Lit lit(scene, settings);
+  const Rendering picture = render(lit.solution.field, lit.camera(), settings.render);
+  ASSERT_NE(picture.finer, nullptr);
+  RenderSettings exact = settings.render;
+  exact.diffuse.term = DiffuseTerm::gather;
+  const double error = lit.off(settings, picture.image, lit.picture(exact));
+  const PictureError estimate =
+      estimate_error(lit.solution.field, lit.camera(), settings, lit.solution.solver,
+                     {picture.image, {}, picture.finer.get()},
+                     {.gathered_pixels = 256, .pixels = 1024});
+  RenderSettings one = exact, shown = settings.render;
+  one.samples = shown.samples = 1;
+  const double of_a_ray = lit.off(settings, lit.picture(shown), lit.picture(one));
+  EXPECT_GT(of_a_ray, 2.0 * error) << "or else nothing is tested";
+  EXPECT_LT(estimate.mesh, 0.5 * of_a_ray);
+  EXPECT_LT(std::hypot(estimate.mesh, estimate.form_factors), 2.0 * error + 0.005);
+}
+
 TEST(PictureError, OfFormFactorsIsNotThatOfShadowRays) {
   // One shadow ray a hit makes direct light noisy, that of elements as it was.
   // Few pixels leave some per cent.

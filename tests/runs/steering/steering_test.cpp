@@ -1,11 +1,13 @@
 // Whether a run that chooses its own settings says truly how far it has come.
 #include "image/metrics/relative_error.h"
 #include "runs/reference_run.h"
+#include "runs/steering/steered_picture.h"
 #include "runs/steering/steering.h"
 #include "tests/support/scene_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace meninas::test {
 namespace {
@@ -65,6 +67,46 @@ TEST(SteeringOfARoomOnAGround, SaysItsTrueError) {
   EXPECT_LE(run.is, 2.0 * run.said);
   EXPECT_THAT(run.choice.options, Contains("--elements"));
   EXPECT_THAT(run.choice.options, Not(Contains("--element-size")));
+}
+
+// What is chosen depends on counted rays and estimates: neither on the clock nor on threads.
+TEST(Steering, ChoosesAlikeWithAnyNumberOfThreads) {
+  const Scene scene = room_on_ground();
+  const auto on = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    RunFigures figures;
+    Steered result;
+    result.image = steer({scene, scene.cameras.front(), {24, 24}, {}, {.error = 0.05, .seconds = {}}},
+                         {}, figures)
+                       .image;
+    result.choice = *figures.choice;
+    return result;
+  };
+  const Steered one = on(1), four = on(4);
+  EXPECT_EQ(one.image.pixels, four.image.pixels);
+  EXPECT_EQ(one.choice.options, four.choice.options);
+  ASSERT_EQ(one.choice.steps.size(), four.choice.steps.size());
+  for (std::size_t k = 0; k < one.choice.steps.size(); ++k) {
+    EXPECT_EQ(one.choice.steps[k].error, four.choice.steps[k].error);
+    EXPECT_EQ(one.choice.steps[k].foretold, four.choice.steps[k].foretold);
+  }
+}
+
+// More samples by the field of the view that is there: the picture, its estimate and its costs
+// as if there had been none.
+TEST(Steering, KeepsTheFieldOfTheViewToTheBit) {
+  const Scene scene = room_on_ground();
+  const SteeringRequest request{
+      scene, scene.cameras.front(), {24, 24}, {}, {.error = 0.05, .seconds = {}}};
+  const RunSettings settings = settings_of(request);
+  const Parameters few{600.0, 32, 4, DiffuseTerm::direct}, many{600.0, 32, 16, DiffuseTerm::direct};
+  Steering kept{request, {}, settings, free_knobs(settings)}, fresh = kept;
+  run_with(kept, few, false);
+  ASSERT_TRUE(kept.view);
+  const SteeredRun after = run_with(kept, many, false), alone = run_with(fresh, many, false);
+  EXPECT_EQ(after.picture.image.pixels, alone.picture.image.pixels);
+  EXPECT_EQ(after.measured.error.total, alone.measured.error.total);
+  EXPECT_EQ(after.measured.pass_two_cost, alone.measured.pass_two_cost);
 }
 
 } // namespace
