@@ -55,7 +55,7 @@ Rgb radiance_of(const Document& document, const Json& json, const std::string& w
 }
 
 /// None where it has no extent in the world.
-std::optional<AreaLight> place(const Json& json, const std::string& type, const glm::dmat4& world) {
+std::optional<AreaLight> placed_light(const Json& json, const std::string& type, const glm::dmat4& world) {
   const auto frame = unit_frame(world);
   if (!frame)
     return std::nullopt;
@@ -92,7 +92,7 @@ void read_area_lights(const Document& document, std::span<const PlacedNode> node
     if (type != "rect" && type != "disk")
       throw InputError(document.file, where, fmt::format("type '{}' does not exist", one_line(type)));
     const Rgb radiance = radiance_of(document, json, where, name, findings);
-    auto light = place(json, type, node.world);
+    auto light = placed_light(json, type, node.world);
     if (!light) {
       findings.about("area lights without area are left out", name);
       continue;
