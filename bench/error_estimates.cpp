@@ -11,6 +11,7 @@
 // or below 0.002 like the error, which is as far as the noise of reference/images lets one see.
 #include "bench/truth.h"
 #include "image/metrics/relative_error.h"
+#include "radiosity/scene/small_elements.h"
 #include "raytrace/error/picture_error.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
@@ -78,7 +79,7 @@ Tally measure_scene(const std::filesystem::path& references, const std::filesyst
                              solution.seconds.interpolate;
       const PictureError e =
           estimate_error(solution.field, camera, settings, solution.solver, {picture, {}},
-                         error_settings(settings, element_count(lit.mesh)));
+                         error_settings(settings, sampled_elements(lit)));
       const double error =
           relative_error(picture, truth.mean, emits, truth.variance ? &*truth.variance : nullptr);
       const double ratio = e.total / error;

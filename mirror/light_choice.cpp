@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meninas {
 
@@ -186,34 +187,35 @@ struct Chooser {
       descend(world, second, begin + share, q - share);
   }
 
-  bool faces(std::uint32_t emitter, const Point3& x) const {
-    return glm::dot(emitters[emitter].plane.normal, x - emitters[emitter].polygon.vertices[0]) > 0.0;
+  /// By its place in the order of the tree, where its normal lies beside those of the others.
+  bool faces(std::size_t place, const Point3& x) const {
+    return glm::dot(tree.flux[place], x - emitters[tree.order[place]].polygon.vertices[0]) > 0.0;
   }
 
   /// One of a node's emitters, by power times the cosine towards x from the node's middle; of those that
   /// face x any where some tries do not tell. `x` in the lamp's own space.
   std::uint32_t emitter_of(const EmitterNode& node, const Point3& x, std::uint32_t seed) const {
-    constexpr std::uint32_t tries = 16, nobody = 0xffffffffU;
+    constexpr std::uint32_t tries = 16;
+    constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
     const double* const begin = tree.sent.data() + node.first;
     const Direction towards = glm::normalize(x - node.middle);
-    std::uint32_t facing = nobody, emitter = 0;
+    std::size_t facing = nobody, place = 0;
     for (std::uint32_t k = 0; k < tries; ++k) {
       const double at = glm::mix(begin[0], begin[node.count], 0x1p-32 * hash(seed, 2 * k));
-      const auto place = static_cast<std::size_t>(
-          std::upper_bound(begin + 1, begin + node.count, at) - tree.sent.data() - 1);
-      emitter = tree.order[place];
+      place = static_cast<std::size_t>(std::upper_bound(begin + 1, begin + node.count, at) -
+                                       tree.sent.data() - 1);
       const Vec3& flux = tree.flux[place];
       const double cosine = glm::dot(flux, towards) / glm::length(flux);
       const bool is_chosen = 0x1p-32 * hash(seed, 2 * k + 1) < cosine;
       if (!is_chosen && (cosine <= 0.0 || facing != nobody))
         continue;
-      if (!faces(emitter, x))
+      if (!faces(place, x))
         continue;
       if (is_chosen)
-        return emitter;
-      facing = emitter;
+        return tree.order[place];
+      facing = place;
     }
-    return facing != nobody ? facing : emitter;
+    return tree.order[facing != nobody ? facing : place];
   }
 
   /// Emitters that stand for the nodes seen from afar, at even steps along what these bring:

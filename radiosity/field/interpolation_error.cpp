@@ -43,10 +43,12 @@ double off_in_the_middle(double derivative, double size) { return derivative * s
 
 /// The median over vertices of e / H.
 double ordinary_bend(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                     std::span<const double> derivatives) {
+                     std::span<const double> derivatives,
+                     std::span<const std::uint8_t> on_lamps) {
   std::vector<double> ratios;
   for (std::size_t v = 0; v < derivatives.size(); ++v)
-    if (const double light = brightest(irradiance[v]); light > 0.0)
+    if (const double light = brightest(irradiance[v]);
+        light > 0.0 && (on_lamps.empty() || on_lamps[v] == 0))
       ratios.push_back(off_in_the_middle(derivatives[v], size_of(mesh, mesh.element_of_vertex[v])) /
                        light);
   if (ratios.empty())
@@ -79,12 +81,13 @@ BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected) {
 
 std::vector<double> interpolation_error(const ElementMesh& mesh,
                                       std::span<const glm::vec3> irradiance, const BendScale& scale,
-                                      NoiseThreshold stands_out) {
+                                      NoiseThreshold stands_out,
+                                      std::span<const std::uint8_t> on_lamps) {
   std::vector<double> bends(element_count(mesh), 0.0);
   if (!(scale.radiosity > 0.0))
     return bends;
   const std::vector<double> derivatives = second_derivatives(mesh, irradiance);
-  const double ordinary = stands_out.times * ordinary_bend(mesh, irradiance, derivatives);
+  const double ordinary = stands_out.times * ordinary_bend(mesh, irradiance, derivatives, on_lamps);
   for (std::size_t e = 0; e < bends.size(); ++e) {
     const double size = size_of(mesh, static_cast<ElementId>(e));
     double off = 0.0;

@@ -12,7 +12,8 @@
 //
 // The noise of e / H is taken to be its median over all vertices, as most of a field is smooth.
 // The threshold is 3 times the median for gathered light (ray noise) and once the median for direct
-// light (noise only in penumbrae).
+// light (noise only in penumbrae). A lamp may have thousands of small faces, which take the mean of
+// their elements (curves/smoothing_groups.h) and so no noise: the median is that of the others.
 // Limit: borders of a surface have no second difference across them;
 // elements there have it from their inner corners.
 //
@@ -43,10 +44,12 @@ struct NoiseThreshold {
 };
 inline constexpr NoiseThreshold of_gathered{3.0}, of_source{1.0};
 
-/// By ElementId, what is held against X. `irradiance` by ElementVertexId.
+/// By ElementId, what is held against X. `irradiance` by ElementVertexId,
+/// `on_lamps` likewise: 1 for vertices of a lamp that take means; empty: none does.
 std::vector<double> interpolation_error(const ElementMesh& mesh,
                                       std::span<const glm::vec3> irradiance, const BendScale& scale,
-                                      NoiseThreshold stands_out = of_gathered);
+                                      NoiseThreshold stands_out = of_gathered,
+                                      std::span<const std::uint8_t> on_lamps = {});
 
 /// The same by the edges that go on at neither end: what there may be at the most where light is
 /// no wilder than a parabola, and not what there is.

@@ -31,7 +31,13 @@ bool has_means(const VertexSamples& found, std::size_t element) {
 /// Where these have the mean of many facets it tells how the curve turns, and is left out.
 std::vector<double> bends_of(const VertexSamples& found, const BendScale& scale, bool first) {
   const std::vector<glm::vec3> light = from_source(found.field);
-  std::vector<double> bends = interpolation_error(found.mesh, light, scale, of_source);
+  std::vector<std::uint8_t> on_lamps;
+  for (std::size_t v = 0; v < found.states.size(); ++v) {
+    const Rgb& emission = found.mesh.emission[index(found.mesh.element_of_vertex[v])];
+    on_lamps.push_back(found.states[v] == VertexState::averaged && emission != Rgb(0.0) ? 1 : 0);
+  }
+  std::vector<double> bends =
+      interpolation_error(found.mesh, light, scale, of_source, on_lamps);
   if (!first)
     return bends;
   const std::vector<double> at_lone_edges = edge_difference_error(found.mesh, light, scale);

@@ -4,6 +4,7 @@
 #include "radiosity/light/direct_irradiance.h"
 #include "radiosity/light/portal_light.h"
 #include "radiosity/light/shadow_paths.h"
+#include "radiosity/scene/small_elements.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -162,6 +163,16 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   }
   sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
                     work.point.choice, work.point.lights);
+}
+
+/// How many points a mean has at most. Where each of them chooses a few of thousands of emitters it would
+/// hardly settle: elements light others, and what choices are off by averages out.
+int most_points(const Lighting& light, const SharedLightSettings& settings) {
+  constexpr std::size_t few = 64; // of the emitters one of so many
+  const bool hardly_settles =
+      light.emitters.size() / few > static_cast<std::size_t>(settings.images);
+  return hardly_settles && !settings.one_place ? std::max(settings.points, few_of(settings.most_points))
+                                           : settings.most_points;
 }
 
 /// Adds what every image brings to a point past known blockers,
@@ -330,7 +341,8 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
   auto& solid_points = work.point.solids.points;
   solid_points.clear();
   Rgb before(0.0);
-  int wanted = std::min(settings.points, settings.most_points);
+  const int most = most_points(light, settings);
+  int wanted = std::min(settings.points, most);
   for (;;) {
     const NumberedPoint next = next_point();
     add_point(light, next, seed, settings, work);
@@ -349,7 +361,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
                          penumbra_error(light, work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
-    if (has_settled || dark || sum.points >= settings.most_points) {
+    if (has_settled || dark || sum.points >= most) {
       work.has_learned = learn(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
       const SolidLight by_solids =
@@ -362,7 +374,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     const auto of_penumbra = static_cast<std::uint32_t>(settings.penumbra_rays);
     for (ImageSum& image : work.images)
       image.from_a_point = shows_differences(light, image) ? of_penumbra : 1;
-    wanted = std::min(2 * sum.points, settings.most_points);
+    wanted = std::min(2 * sum.points, most);
   }
 }
 

@@ -25,4 +25,11 @@ bool needs_few_samples(const LightScene& light, ElementId element) {
              small_share * light.emitter_tree.nodes[0].power;
 }
 
+std::size_t sampled_elements(const LightScene& light) {
+  std::size_t eighths = 0;
+  for (std::uint32_t e = 0; e < element_count(light.mesh); ++e)
+    eighths += needs_few_samples(light, ElementId{e}) ? 1 : 8;
+  return eighths / 8;
+}
+
 } // namespace meninas

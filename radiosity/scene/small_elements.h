@@ -23,6 +23,9 @@ bool has_few_rays(const LightScene& light, ElementId element);
 /// Whether its direct light has few samples, and vertices between such elements take their mean.
 bool needs_few_samples(const LightScene& light, ElementId element);
 
+/// How many elements there are by what they take of rays: those of few samples as an eighth.
+std::size_t sampled_elements(const LightScene& light);
+
 /// The number where few are taken of so many.
 inline int few_of(int samples, int fewest = 1) {
   return std::min(samples, std::max(fewest, samples / 8));

@@ -1,5 +1,6 @@
 #include "runs/steering/error_report.h"
 
+#include "radiosity/scene/small_elements.h"
 #include "raytrace/error/error_map.h"
 #include "runs/report/percent.h"
 #include "scenes/stopwatch.h"
@@ -64,7 +65,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   Stopwatch watch;
   const auto& [field, camera, settings, solver] = source;
   const PictureError error = estimate_error(field, camera, settings, solver, picture,
-                                            error_settings(settings, element_count(field.mesh())));
+                                            error_settings(settings, sampled_elements(*field.scene)));
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0 && !std::isfinite(error.total)) {

@@ -1,5 +1,6 @@
 #include "runs/steering/steering.h"
 
+#include "radiosity/scene/small_elements.h"
 #include "raytrace/pixels/sample_choice.h"
 #include "runs/report/percent.h"
 #include "runs/run_stages.h"
@@ -182,7 +183,7 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   SteeredRun run{{}, steering.figures, {}};
   run.picture = render_view(lit, request.camera, request.size, settings, events, run.figures);
   Stopwatch watch;
-  PictureErrorSettings how = error_settings(two_pass, element_count(lit.field.mesh()));
+  PictureErrorSettings how = error_settings(two_pass, sampled_elements(*lit.field.scene));
   constexpr int more = 2; // what is decided by it deserves more pixels than what is only said
   how.gathered_pixels *= more;
   how.pixels = std::min(how.pixels * more, request.size.width * request.size.height);

@@ -3,6 +3,7 @@
 #include "image/metrics/relative_error.h"
 #include "image/whole_file.h"
 #include "radiosity/scene/mirror_depth_bound.h"
+#include "radiosity/scene/small_elements.h"
 #include "raytrace/error/probes.h"
 #include "runs/report/comparison.h"
 #include "runs/outputs.h"
@@ -135,7 +136,7 @@ void measure_point(Measuring& measuring, TradePoint& point) {
                         figures.seconds.interpolate;
   point.elements = figures.elements;
   point.estimate = estimate_error(result.solution.field, measuring.camera, two_pass, result.solution.solver,
-      {result.rendering.image, result.rendering.samples, result.rendering.finer.get()}, error_settings(two_pass, point.elements));
+      {result.rendering.image, result.rendering.samples, result.rendering.finer.get()}, error_settings(two_pass, sampled_elements(*result.solution.field.scene)));
   point.picture = std::move(result.rendering.image);
 }
 

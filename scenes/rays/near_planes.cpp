@@ -60,13 +60,24 @@ std::vector<Extent> find_extents(const FrameGeometry& geometry) {
   return extents;
 }
 
+std::vector<Box> boxes_of(const FrameGeometry& geometry) {
+  std::vector<Box> boxes;
+  boxes.reserve(geometry.triangles.size());
+  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t)
+    boxes.push_back(box_of(corners_of(geometry, t)));
+  return boxes;
+}
+
 /// The plane classes of the triangles that come near a plane within the box of its surfaces.
-std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, const Extent& extent,
-                                       std::uint32_t plane, double reach) {
+/// `boxes` by triangle: most are far away.
+std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, std::span<const Box> boxes,
+                                       const Extent& extent, std::uint32_t plane, double reach) {
   const auto margin = extent.grain * (2.0 * reach + float_rounding);
   const auto& normal = geometry.plane_normals[plane];
   std::vector<std::uint32_t> found;
   for (std::uint32_t t = 0; t < geometry.triangles.size() && found.size() <= max_slabs; ++t) {
+    if (!overlap(extent.box, boxes[t], margin))
+      continue;
     const auto other = geometry.facts[t].plane;
     if (other == plane)
       continue;
@@ -74,8 +85,7 @@ std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, const Exte
     const std::array heights{glm::dot(normal, corners[0]), glm::dot(normal, corners[1]),
                              glm::dot(normal, corners[2])};
     const auto [low, high] = std::ranges::minmax(heights);
-    if (low > extent.high + margin || high < extent.low - margin ||
-        !overlap(extent.box, box_of(corners), margin))
+    if (low > extent.high + margin || high < extent.low - margin)
       continue;
     if (std::ranges::find(found, other) == found.end())
       found.push_back(other);
@@ -121,9 +131,10 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach) {
   const auto tested =
       std::min(extents.size(), static_cast<std::size_t>(std::ceil(max_tests / triangles)));
   const auto order = by_size(extents);
+  const std::vector<Box> boxes = boxes_of(geometry);
   std::vector<std::vector<std::uint32_t>> found(tested);
   tbb::parallel_for(std::size_t{0}, tested, [&](std::size_t p) {
-    found[p] = planes_near(geometry, extents[order[p]], order[p], reach);
+    found[p] = planes_near(geometry, boxes, extents[order[p]], order[p], reach);
   });
 
   NearPlanes near;

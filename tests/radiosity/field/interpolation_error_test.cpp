@@ -64,6 +64,32 @@ TEST(Bends, OfWhatIsOrdinaryDoNotCount) {
   EXPECT_EQ(std::ranges::count(by_noise, 1), 0);
 }
 
+// Vertices that take means have no noise and no bend. Where a lamp has most of all vertices, the noise of
+// the others is still what is ordinary among these.
+TEST(Bends, OfNoiseDoNotCountBesideLamps) {
+  std::vector<glm::vec3> values;
+  std::vector<std::uint8_t> on_lamps;
+  for (const Point3& x : wall().mesh.vertices) {
+    const bool is_lamp = x.x < 0.65;
+    const bool even = (std::lround(x.x / size) + std::lround(x.y / size)) % 2 == 0;
+    values.emplace_back(is_lamp ? 1.0 : 1.0 + (even ? 0.02 : -0.02));
+    on_lamps.push_back(is_lamp ? 1 : 0);
+  }
+  const BendScale scale{.area = size * size, .radiosity = 1.0};
+  // In the middle of what is noisy, away from the edge between both.
+  const auto noisy_bends = [&](std::span<const std::uint8_t> lamps) {
+    const auto bends = interpolation_error(wall().mesh, values, scale, of_source, lamps);
+    double most = 0.0;
+    for (std::size_t e = 0; e < bends.size(); ++e)
+      if (centre_of(wall().mesh, static_cast<ElementId>(e)).x > 0.8)
+        most = std::max(most, bends[e]);
+    return most;
+  };
+  const double off = 0.5 * 4.0 * 0.02 / 8.0; // of which half is reflected
+  EXPECT_NEAR(noisy_bends({}), off, 1e-5);
+  EXPECT_LT(noisy_bends(on_lamps), 0.05 * off); // H is 0.98 and 1.02 by turns
+}
+
 // Twice as bent as most of the wall: for rays that is within what noise may be,
 // direct light stands out.
 TEST(Bends, OfTheSourceStandOutSooner) {

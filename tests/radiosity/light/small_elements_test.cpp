@@ -93,6 +93,10 @@ TEST(LampFaces, TakeFewSamples) {
     EXPECT_EQ(needs_few_samples(*l->light, ElementId{e}), l->mesh.emission[e] != Rgb(0.0));
   for (std::uint32_t e = 0; e < element_count(few->mesh); ++e)
     EXPECT_FALSE(needs_few_samples(*few->light, ElementId{e}));
+  // Eight of them take what one other does.
+  constexpr std::size_t faces = 2 * 24 * 24;
+  EXPECT_EQ(sampled_elements(*l->light), element_count(l->mesh) - faces + faces / 8);
+  EXPECT_EQ(sampled_elements(*few->light), element_count(few->mesh));
 }
 
 // What is finely tessellated has no more samples than its area has: small surfaces share theirs.
