@@ -115,7 +115,7 @@ void trace_rays(const Lighting& light, const ClusterTree& tree, const Receiver& 
       work.sent[stand_in] += weight[k];
       if (((dark >> k) & 1U) == 0U)
         work.arrived[stand_in] +=
-            weight[k] * left_between(light.scene, end_of(receiver),
+            weight[k] * transmittance_between(light.scene, end_of(receiver),
                                      end_of(tree.planes[work.stand_ins[stand_in].plane]),
                                      direct.folded[k]);
     }

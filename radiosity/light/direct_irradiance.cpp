@@ -87,7 +87,7 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
       share.all += weight;
       if (((dark >> k) & 1U) == 0U)
         share.seen +=
-            weight * left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
+            weight * transmittance_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
             shown_by(light.scene, emitter, work.folded[k]);
     }
     share.weighed = share.samples;
@@ -158,7 +158,7 @@ void sample_dim_images(const Lighting& light, const Receiver& receiver,
       const Emitter& emitter = light.emitters[work.lights[own].emitter];
       if (((dark >> k) & 1U) == 0U && (light.scene.by_angle.empty() || weight[k] > 0.0))
         work.visible[own] =
-            left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
+            transmittance_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
             shown_by(light.scene, emitter, work.folded[k]);
     }
     first += count;

@@ -64,7 +64,7 @@ Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& r
     // No ray meets what has no extent: solids let it pass straight.
     if (blocked(light.scene, work.folded, 1, work.shadow_rays) == 0)
       sum += light.worlds.worlds[index(image.world)].throughput * image.irradiance *
-             left_between(light.scene, end_of(receiver), {}, work.folded[0]);
+             transmittance_between(light.scene, end_of(receiver), {}, work.folded[0]);
   }
   return sum;
 }

@@ -39,7 +39,7 @@ void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWo
       arrivals.push_back(
           {glm::normalize(image.position - receiver.position),
            light.worlds.worlds[index(world)].throughput * image.irradiance *
-               left_between(light.scene, end_of(receiver), {}, work.folded[k]),
+               transmittance_between(light.scene, end_of(receiver), {}, work.folded[k]),
            world, image.light});
     }
     first += count;
@@ -80,7 +80,7 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
-        samples[begin + k].radiance = radiance * left_by_angle(light.scene, work.folded[k]);
+        samples[begin + k].radiance = radiance * transmittance_by_angle(light.scene, work.folded[k]);
   }
 }
 

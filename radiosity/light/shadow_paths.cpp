@@ -191,7 +191,7 @@ Rgb reflected(const LightScene& light, const Leg& leg, const Mirror& mirror) {
 
 } // namespace
 
-Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment) {
+Rgb transmittance_by_angle(const LightScene& light, const FoldedSegment& segment) {
   Rgb left(1.0);
   if (light.by_angle.empty())
     return left;
@@ -224,10 +224,10 @@ static Rgb let_through(const LightScene& light, const SegmentEnd& end, const Leg
              : coat_transmittance(light.by_angle[index(end.coat)], cosine_of(leg, end.normal));
 }
 
-Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
+Rgb transmittance_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
                  const FoldedSegment& segment) {
   return let_through(light, receiver, segment.legs.front()) *
-         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment);
+         let_through(light, sender, segment.legs.back()) * transmittance_by_angle(light, segment);
 }
 
 } // namespace meninas

@@ -68,7 +68,7 @@ std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 1
 /// the product of what passes each pane at the angle at which it is crossed,
 /// and of what each pane or coat that is a mirror of the world reflects at its angle over the mean
 /// that the world's throughput has for it. 1 where there are none.
-Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment);
+Rgb transmittance_by_angle(const LightScene& light, const FoldedSegment& segment);
 
 /// A surface at the end of a segment, and the coat above it where that is a mirror.
 struct SegmentEnd {
@@ -78,7 +78,7 @@ struct SegmentEnd {
 
 /// The same, for light that is sent from below one coat and received below another:
 /// each lets through (1 - R(cos)) / (1 - R_mean) (coat_transmittance).
-Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
+Rgb transmittance_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
                  const FoldedSegment& segment);
 
 } // namespace meninas

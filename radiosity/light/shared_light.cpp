@@ -263,7 +263,7 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
         continue;
       }
       image.seen += ray.weight;
-      const Rgb left = left_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
+      const Rgb left = transmittance_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
                        shown_by(light.scene, light.emitters[image.emitter], work.point.folded[k]);
       image.left += ray.weight * left;
       image.squares += ray.weight * largest(left) * largest(left);
