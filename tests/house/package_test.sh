@@ -37,7 +37,8 @@ for file in usr/bin/meninas $(cd "$scratch/root" && find usr/lib -name '*.so'); 
 done
 
 for page in usr/share/man/man1/meninas.1 usr/share/man/man1/meninas-render.1 usr/share/doc/meninas/docs/options.md \
-  usr/share/bash-completion/completions/meninas usr/share/fish/vendor_completions.d/meninas.fish usr/share/meninas/batch.schema.json; do
+  usr/share/bash-completion/completions/meninas usr/share/fish/vendor_completions.d/meninas.fish usr/share/meninas/batch.schema.json \
+  usr/share/meninas/openjd/meninas-batch/template.yaml usr/share/meninas/kubernetes/meninas-batch.yaml; do
   [[ -s $scratch/root/$page || -s $scratch/root/$page.gz ]] || fail "$page is missing"
 done
 
