@@ -50,8 +50,8 @@ TEST(AreaLightPaths, TheEyeSeesNoneAndMirrorsDo) {
   Scene scene;
   add_polygon(scene, "mirror", {{0, 0, 3}, {3, 0, 3}, {3, 0, 0}, {0, 0, 0}}, mirror(0.75));
   scene.area_lights = {panel({1.5, 1.0, 1.5}, 0.8, 0.5, Rgb(4.0, 3.0, 2.0))};
-  EXPECT_EQ(radiance_seen(scene, {1.5, 0.2, 1.5}, {1.5, 1.0, 1.5}, 16).mean, Rgb(0.0)) << "its front";
-  EXPECT_EQ(radiance_seen(scene, {1.5, 2.0, 1.5}, {1.5, 1.0, 1.5}, 16).mean.r, 0.75 * 4.0)
+  EXPECT_EQ(radiance_seen(scene, {1.5, 0.2, 1.6}, {1.5, 1.0, 1.5}, 16).mean, Rgb(0.0)) << "its front";
+  EXPECT_EQ(radiance_seen(scene, {1.5, 2.0, 1.6}, {1.5, 1.0, 1.5}, 16).mean.r, 0.75 * 4.0)
       << "through its back, in the mirror below";
   EXPECT_EQ(radiance_seen(scene, {2.9, 2.0, 1.5}, {2.6, 0.0, 1.5}, 16).mean, Rgb(0.0)) << "beside it";
 }
@@ -105,8 +105,8 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
 }
 
 TEST(AreaLightPictures, AgreeWithPathsAlsoAboveTheLightAndInAMirror) {
-  expect_agreement(room_with_panel(), {{"the ceiling above it", {1.5, 0.8, 2.5}, {0.9, 2.4, 1.6}},
-                                       {"the floor", {1.5, 1.5, 2.8}, {1.2, 0.0, 0.9}},
+  expect_agreement(room_with_panel(), {{"the ceiling above it", {1.5, 0.8, 2.5}, {0.5, 2.4, 1.3}},
+                                       {"the floor", {1.5, 1.5, 1.2}, {0.6, 0.0, 2.6}},
                                        {"a wall", {0.3, 1.5, 1.5}, {2.0, 0.7, 1.0}},
                                        {"the light in the mirror", {1.9, 0.2, 1.6}, {0.0, 0.83, 1.6}},
                                        {"its back in the mirror", {1.9, 2.3, 1.6}, {0.0, 1.75, 1.6}},
