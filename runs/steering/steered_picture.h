@@ -6,7 +6,8 @@
 // machine does, and in seconds where a time is.
 #pragma once
 
-#include "runs/steering/steering.h"
+#include "runs/steering/steering_model.h"
+#include "runs/view.h"
 
 #include <chrono>
 #include <memory>
@@ -16,6 +17,22 @@ namespace meninas {
 
 /// Thrown where work tells its progress, to end it.
 struct OutOfTime {};
+
+/// At least one of them is wanted.
+struct Goal {
+  std::optional<double> error;   ///< relative error of the picture
+  std::optional<double> seconds; ///< of the whole run
+};
+
+struct SteeringRequest {
+  const Scene& scene;
+  const Camera& camera;
+  PictureSize size;
+  RunSettings settings; ///< what is set here stays; the other knobs are turned
+  Goal goal;
+  double spent = 0.0;   ///< seconds of the goal's before
+  double reserve = 0.0; ///< seconds of the goal's for what comes after
+};
 
 /// What is asked for, with adaptive samples where their number is free.
 /// The numbers that no parameter turns are those of `normal` below 3 %, else of a draft.
