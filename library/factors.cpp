@@ -124,7 +124,7 @@ RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
     const SolverResult result =
         meninas::solve(impl_->factors.transport, colours_at(emission.empty() ? own : emission, size()),
                        colours_at(impl_->reflectance, size()), how,
-                       {.progress = events_of(listener).progress});
+                       {.shooters = {}, .watch = {}, .progress = events_of(listener).progress});
     return Solved{flat<double>(result.radiosity), result.iterations, result.residual,
                   result.error_bound, result.converged};
   });

@@ -42,6 +42,10 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
 
 void show_area_lights(const RenderContext& context, const LaneState& state, std::uint32_t count,
                       const HitPacket& hits, TileWorkspace& work) {
+  // What they send is emission, as lamps' is: reflected light has no part in it (light_parts).
+  const ReflectedPart part = context.visible.part;
+  if (part != ReflectedPart::all && part != ReflectedPart::none)
+    return;
   const RayFrame& frame = context.light.rays.frame();
   for (const AreaLight& light : context.light.scene.area_lights) {
     const double area = area_of(light);

@@ -72,9 +72,8 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
                          emitter.area, Rgb(0.0), image.world});
       fold(light.scene, image.world,
-           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k],
-           solids_before(emitter));
-    }
+           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k]);
+    } // what solids bend, area lights by way of them too, rays find
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     const Rgb radiance =
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;

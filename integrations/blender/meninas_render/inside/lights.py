@@ -84,10 +84,14 @@ def placed(light, matrix):
         if light["type"] == "SPOT":
             data.spot_size, data.spot_blend = light["spot_size"], light["spot_blend"]
         return matrix, data
-    location, rotation, _ = matrix.decompose()
+    # Its own Z and X in the world: decompose() would turn those of mirrored objects the other way.
+    z = matrix.to_3x3().col[2].normalized()
+    x = matrix.to_3x3().col[0]
+    x = (x - x.dot(z) * z).normalized()
+    turned = Matrix((x, z.cross(x), z)).transposed()
     # Z upwards in Blender is Y in glTF, also of what a node itself has: its -Z, the way the light shines, is +Y here.
     turn = Matrix.Rotation(-math.pi / 2.0, 4, "X")
-    return Matrix.LocRotScale(location, rotation, None) @ turn, None
+    return Matrix.Translation(matrix.to_translation()) @ turned.to_4x4() @ turn, None
 
 
 def _split(values):
