@@ -55,6 +55,13 @@ class Units(unittest.TestCase):
         scene.objects["Lamp"].scale = (2.0, 1.0, 1.0)
         self.compare("ellipse", scene)
 
+    def test_area_lamp_that_is_mirrored(self):
+        for turned, scale in ((0.0, (-1.0, 1.0, 1.0)), (math.pi, (1.0, 1.0, -1.0))):
+            scene = floor_under("AREA", 100.0, shape="RECTANGLE", size=0.8, size_y=0.3)
+            scene.objects["Lamp"].rotation_euler[0] += turned
+            scene.objects["Lamp"].scale = scale
+            self.compare(f"mirrored {scale}", scene)
+
     def test_light_with_nodes(self):
         scene = floor_under("POINT", 100.0, shadow_soft_size=0.0)
         data = scene.objects["Lamp"].data

@@ -158,5 +158,23 @@ TEST(Layers, WhatTheMirrorThrowsOnTheFloorIsTheImageOfTheLamp) {
   EXPECT_NEAR(taken.by_name["diffuse.mirrored"].at(0, 0).g, mirrored, 1e-3 * mirrored);
 }
 
+// A black room with a mirror that shows an area light: light that is emitted, once, and nothing reflected.
+TEST(Layers, ShowAnAreaLightInAMirrorAsEmission) {
+  Scene scene;
+  add_polygon(scene, "mirror", {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, mirror(0.5));
+  AreaLight light{.name = "light", .radiance = Rgb(3.0)};
+  light.axis = {0.0, 0.0, -1.0};
+  light.corners = {{0.6, 0.6, 2}, {0.6, 1.4, 2}, {1.4, 1.4, 2}, {1.4, 0.6, 2}};
+  scene.area_lights = {light};
+  scene.cameras = {look_at({1.0, 1.0, 1.0}, {1.0, 1.0, 0.0}, 0.8)};
+  Layered taken = layers_of(scene, quick(24, 24));
+  const double shown = 0.5 * 3.0;
+  EXPECT_NEAR(largest_value(taken.whole.image), shown, rounding);
+  EXPECT_NEAR(largest_value(taken.layered.image), shown, rounding);
+  EXPECT_NEAR(largest_value(taken.by_name.at("emission.mirror")), shown, rounding);
+  for (const char* name : {"diffuse.direct.mirror", "diffuse.mirrored.mirror", "emission"})
+    EXPECT_EQ(largest_value(taken.by_name.at(name)), 0.0) << name;
+}
+
 } // namespace
 } // namespace meninas::test
