@@ -244,7 +244,7 @@ void add_light_options(Options& command, CommonOptions& options) {
   SceneState& state = options.settings.gltf.state;
   add_sky_options(command, options.settings);
   command.add("--light-scale", "X",
-              "multiply the intensity of point, spot and directional lights, and of luminaires [1]",
+              "multiply the intensity of point, spot, directional and area lights, and of luminaires [1]",
               [&](const std::string& text) {
                 state.light_scale = parse_number("--light-scale", text, Sign::positive);
               });

@@ -17,6 +17,7 @@ struct Room::Impl {
   Settings settings;   ///< of all calls
   RunSettings loaded;  ///< with which the file was read
   Scene scene;         ///< without the warnings that were told
+  std::vector<std::string> told; ///< these
   double seconds = 0.0; ///< that reading took
 };
 

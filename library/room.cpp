@@ -12,6 +12,7 @@
 
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace meninas {
 
@@ -40,7 +41,7 @@ Room::Room(const std::filesystem::path& file, const Settings& settings, const Li
     if (listener.warning) { // once
       for (const std::string& warning : impl->scene.warnings)
         listener.warning(warning);
-      impl->scene.warnings.clear();
+      impl->told = std::exchange(impl->scene.warnings, {});
     }
     impl_ = std::move(impl);
   });
@@ -73,7 +74,9 @@ std::string Room::plan(const Settings& settings) const {
   return guarded([&] {
     const RenderRequest request = call_of(*impl_, settings, CallKind::plan).request;
     const ThreadLimit limit(request.settings.threads);
-    return plan_of(impl_->scene, impl_->seconds,
+    Scene scene = impl_->scene; // a plan says all warnings of the file
+    scene.warnings.insert(scene.warnings.begin(), impl_->told.begin(), impl_->told.end());
+    return plan_of(scene, impl_->seconds,
                    {impl_->file, PlanFormat::json, request.camera, request.size, request.settings});
   });
 }

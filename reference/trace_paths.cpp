@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -65,11 +64,9 @@ double weight_of_meeting(const Path& path, LightSearch search, double p_l) {
 void add_sky(const TracedScene& traced, LightSearch search, Path& path) {
   const Environment& sky = traced.scene.background;
   double weight = 1.0;
-  if (path.density > 0.0 && !traced.sky.columns.empty()) {
-    const double p_l = sky_density(sky, traced.sky, path.ray.direction) *
-                       chain_chance(traced, path.chain_length);
-    weight = weight_of_meeting(path, search, p_l);
-  }
+  if (path.density > 0.0 && !traced.sky.columns.empty())
+    weight = weight_of_meeting(path, search, sky_density(sky, traced.sky, path.ray.direction) *
+                                                 chain_chance(traced, path.chain_length));
   path.routes.add(weight * path.throughput * radiance_from(sky, path.ray.direction),
                   path.radiance);
 }
@@ -110,9 +107,7 @@ void intersect(const TracedScene& traced, Backs backs, LightSearch search, Paths
     path.alive = triangle != none<TriangleId>;
     if (backs == Backs::absorb && !traced.scene.area_lights.empty())
       add_area_lights(traced, search,
-                      path.alive ? double{hits.distance[lane]} / frame.scale
-                                 : std::numeric_limits<double>::infinity(),
-                      path);
+                      path.alive ? double{hits.distance[lane]} / frame.scale : HUGE_VAL, path);
     if (!path.alive) {
       add_sky(traced, search, path);
       continue;
@@ -132,9 +127,10 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
   const Rgb& emission = path.at.material.emission;
   if (emission == Rgb(0.0))
     return;
-  const double p_l = choosing_density(traced, path.scattered_at, path.at) *
-                     chain_chance(traced, path.chain_length);
-  const double weight = weight_of_meeting(path, search, p_l);
+  double weight = 1.0;
+  if (path.density > 0.0)
+    weight = weight_of_meeting(path, search, choosing_density(traced, path.scattered_at, path.at) *
+                                                 chain_chance(traced, path.chain_length));
   path.routes.add(path.throughput * emission * weight, path.radiance);
 }
 

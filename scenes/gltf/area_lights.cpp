@@ -92,6 +92,8 @@ void read_area_lights(const Document& document, std::span<const PlacedNode> node
     if (type != "rect" && type != "disk")
       throw InputError(document.file, where, fmt::format("type '{}' does not exist", one_line(type)));
     const Rgb radiance = radiance_of(document, json, where, name, findings);
+    if (!(number_or(json, "size", 1.0) < 1e15)) // beyond that areas overflow in single precision
+      throw InputError(document.file, where, "size is too large");
     auto light = placed_light(json, type, node.world);
     if (!light) {
       findings.about("area lights without area are left out", name);

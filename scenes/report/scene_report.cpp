@@ -236,7 +236,9 @@ private:
     };
     const auto few = std::views::take(max_neighbours);
     if (std::ranges::any_of(scene_.cameras | few, holds, &Camera::position) ||
-        std::ranges::any_of(scene_.lights | few, holds, &PunctualLight::position)) {
+        std::ranges::any_of(scene_.lights | few, holds, &PunctualLight::position) ||
+        std::ranges::any_of(scene_.area_lights | few, holds,
+                            [](const AreaLight& light) { return light.corners[0]; })) {
       return true;
     }
     bool found = false;

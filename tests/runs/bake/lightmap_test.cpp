@@ -305,7 +305,7 @@ TEST(Lightmap, EightBitsKeepTheMean) {
   map.irradiance = Image(64, 64);
   for (glm::vec3& pixel : map.irradiance.pixels)
     pixel = glm::vec3(3.4F, 0.0F, 300.0F);
-  const Bitmap read = decode_image(irradiance_png(map), Encoding::linear, "lightmap");
+  const Bitmap read = decode_image(irradiance_png(map), Encoding::srgb, "lightmap");
   glm::vec4 sum(0.0F);
   for (const glm::vec4& pixel : read.pixels)
     sum += 255.0F / 4096.0F * pixel;

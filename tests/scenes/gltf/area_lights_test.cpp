@@ -93,6 +93,10 @@ TEST(GltfAreaLights, WhatCannotBeIsSaidOrAnError) {
   light = rectangle;
   light["intensity"] = 1e40;
   EXPECT_THAT(error_of(lit_square(light)), HasSubstr("intensity is too large"));
+  light = rectangle;
+  light["size"] = 1e40;
+  EXPECT_THAT(error_of(lit_square(light)), HasSubstr("size is too large"));
+  light = rectangle;
   light["intensity"] = -1.0;
   EXPECT_TRUE(warns(load(lit_square(light)), {"negative intensity", "panel"}));
   light = rectangle;
