@@ -162,7 +162,9 @@ TEST(Layers, WhatTheMirrorThrowsOnTheFloorIsTheImageOfTheLamp) {
 TEST(Layers, ShowAnAreaLightInAMirrorAsEmission) {
   Scene scene;
   add_polygon(scene, "mirror", {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, mirror(0.5));
-  AreaLight light{.name = "light", .radiance = Rgb(3.0)};
+  AreaLight light;
+  light.name = "light";
+  light.radiance = Rgb(3.0);
   light.axis = {0.0, 0.0, -1.0};
   light.corners = {{0.6, 0.6, 2}, {0.6, 1.4, 2}, {1.4, 1.4, 2}, {1.4, 0.6, 2}};
   scene.area_lights = {light};

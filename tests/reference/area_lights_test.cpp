@@ -19,7 +19,10 @@ constexpr double pi = std::numbers::pi;
 
 /// A level rectangle that shines downwards.
 AreaLight panel(const Point3& at, double a, double b, const Rgb& radiance) {
-  AreaLight light{.name = "panel", .axis = {0.0, -1.0, 0.0}, .radiance = radiance};
+  AreaLight light;
+  light.name = "panel";
+  light.axis = {0.0, -1.0, 0.0};
+  light.radiance = radiance;
   light.corners = {at + Vec3(-a, 0, -b) / 2.0, at + Vec3(a, 0, -b) / 2.0, at + Vec3(a, 0, b) / 2.0,
                    at + Vec3(-a, 0, b) / 2.0};
   return light;
