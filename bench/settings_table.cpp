@@ -82,7 +82,7 @@ Made by_quality(const KnownScene& known, Quality quality) {
   const PictureError error =
       estimate_error(solution.field, known.camera, settings, solution.solver,
                      {shown.image, shown.samples, shown.finer.get()},
-                     error_settings(settings, element_count(solution.field.mesh())));
+                     error_settings(settings, sampled_elements(*solution.field.scene)));
   return {std::move(shown.image), processor_seconds() - before, 0.0, error.total, 1, {}};
 }
 

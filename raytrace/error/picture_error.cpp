@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <numbers>
 
 namespace meninas {
@@ -18,9 +19,7 @@ namespace {
 
 using Radiances = std::vector<glm::vec3>;
 
-struct Cost {
-  double seconds = 0.0, rays = 0.0;
-};
+using Cost = std::pair<double, double>; ///< seconds, rays
 
 /// Pixels on demand, and what they have taken.
 struct Probing {
@@ -40,7 +39,7 @@ struct Probing {
   Cost each_since(const Cost& before, std::size_t hits) {
     const Cost now = so_far();
     const double n = double(std::max<std::size_t>(hits, 1));
-    return {(now.seconds - before.seconds) / n, (now.rays - before.rays) / n};
+    return {(now.first - before.first) / n, (now.second - before.second) / n};
   }
 
   Radiances operator()(const RenderSettings& render, std::span<const glm::ivec2> pixels) {
@@ -88,7 +87,7 @@ double mean_outside(const Image& picture, const std::vector<std::uint8_t>& emits
 }
 
 /// One camera ray a pixel, and gathering as vertices do, with no cap on mirrors.
-RenderSettings gathering_settings(const TwoPassSettings& settings) {
+RenderSettings gathering_settings(const TwoPassSettings& settings, bool within_pixels) {
   RenderSettings render = settings.render;
   const PassOneSettings& pass_one = settings.pass_one;
   render.samples = 1;
@@ -96,9 +95,11 @@ RenderSettings gathering_settings(const TwoPassSettings& settings) {
   render.diffuse.term = DiffuseTerm::gather;
   if (settings.render.diffuse.term == DiffuseTerm::interpolated) {
     constexpr int few = 16, many = 128; // or else their noise hides what is looked for
-    render.diffuse.direct = pass_one.direct;
-    render.diffuse.direct.shadow_rays = std::max(render.diffuse.direct.shadow_rays, few);
-    render.diffuse.direct.penumbra_rays = std::max(render.diffuse.direct.penumbra_rays, many);
+    auto& direct = render.diffuse.direct = pass_one.direct;
+    if (within_pixels) {
+      direct.shadow_rays = std::max(direct.shadow_rays, few);
+      direct.penumbra_rays = std::max(direct.penumbra_rays, many);
+    }
   }
   render.diffuse.gather = pass_one.form_factors;
   render.diffuse.gather.method = FormFactorMethod::rays;
@@ -154,15 +155,13 @@ struct SourceSettings {
 };
 
 /// What light from emitters is off by, squared, in the mean of a pixel.
-/// Cells as small as pixels are off to either side of edges: more rays in fewer pixels tell means with less noise.
-double source_error(Probing& probe, SourceSettings settings, const ProbeChoice& choice,
-                    bool within_pixels, PictureError& error) {
+/// Cells as small as pixels are off to either side of edges: several rays in fewer pixels tell means with less noise.
+double error_of_means(Probing& probe, SourceSettings settings, const ProbeChoice& choice, PictureError& error) {
   constexpr int rays = 16, fewer = 4;
-  const std::size_t all = choice.pixels.size();
-  const std::size_t count = within_pixels ? (all + fewer - 1) / fewer : all;
+  const std::size_t count = (choice.pixels.size() + fewer - 1) / fewer;
   const auto pixels = std::span(choice.pixels).first(count);
   auto& [exact, shown] = settings;
-  exact.samples = shown.samples = within_pixels ? rays : 1;
+  exact.samples = shown.samples = rays;
   const auto off = [&](bool other, std::uint32_t draw) {
     const auto at = [&](const RenderSettings& render) { return other ? elsewhere(render) : render; };
     Radiances changes = probe(at(redrawn(exact, draw)), pixels);
@@ -172,12 +171,24 @@ double source_error(Probing& probe, SourceSettings settings, const ProbeChoice& 
   };
   const Cost before = probe.so_far();
   const Radiances a = off(false, 3), b = off(true, 4);
-  const Cost each = probe.each_since(before, 2 * count * static_cast<std::size_t>(exact.samples));
-  error.direct_seconds = each.seconds;
-  error.direct_rays = each.rays;
-  return std::max(0.0, mean_of(count, [&](std::size_t k) {
-                    return static_cast<float>(choice.weight[k]) * a[k] * b[k];
-                  }));
+  std::tie(error.direct_seconds, error.direct_rays) = probe.each_since(before, 2 * count * rays);
+  return known_mean(count, [&](std::size_t k) {
+    return static_cast<float>(choice.weight[k]) * a[k] * b[k];
+  });
+}
+
+struct TwoDraws {
+  const Radiances &a, &b;
+};
+
+/// Squared: what two gatherings have that such with as many mirrors as the picture has have not.
+double light_beyond(Probing& probe, RenderSettings capped, const TwoDraws& all, const ProbeChoice& choice) {
+  const auto pixels = std::span(choice.pixels).first(all.a.size());
+  capped.diffuse.gather.max_bounces = probe.settings.pass_one.form_factors.max_bounces;
+  const Radiances a = probe(redrawn(capped, 3), pixels), b = probe(redrawn(capped, 4), pixels);
+  return mean_of(pixels.size(), [&](std::size_t k) {
+    return static_cast<float>(choice.weight[k]) * (all.a[k] - a[k]) * (all.b[k] - b[k]);
+  });
 }
 
 /// What one camera ray a pixel shows is off:
@@ -185,7 +196,7 @@ double source_error(Probing& probe, SourceSettings settings, const ProbeChoice& 
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
                  bool within_pixels, SquaredErrors& errors, PictureError& error) {
   const std::span<const glm::ivec2> pixels = choice.pixels;
-  const RenderSettings gathering = gathering_settings(probe.settings);
+  const RenderSettings gathering = gathering_settings(probe.settings, within_pixels);
   RenderSettings shown = probe.settings.render;
   shown.samples = 1;
   const bool interpolated = shown.diffuse.term == DiffuseTerm::interpolated;
@@ -196,15 +207,16 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   }
   // What is computed at the hit is drawn alike in L_k, and is not in the difference:
   // its noise is the pixels'.
-  const Radiances l1 = probe(redrawn(shown, 3), first);
+  const Radiances l1 = probe(redrawn(shown, 3), interpolated && !within_pixels ? pixels : first);
   const Radiances l2 = interpolated ? l1 : probe(redrawn(shown, 4), first);
   const Cost before = probe.so_far();
   const Radiances g1 = probe(redrawn(gathering, 3), first),
                   g2 = probe(redrawn(gathering, 4), first);
-  const Cost gathering_cost = probe.each_since(before, 2 * first.size());
-  error.gather_seconds = gathering_cost.seconds;
-  error.gather_rays = gathering_cost.rays;
+  std::tie(error.gather_seconds, error.gather_rays) = probe.each_since(before, 2 * first.size());
   const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
+
+  const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
+  errors.field = mean_of(first.size(), off);
 
   // Without direct light, whose noise is the pixels' or the mesh's,
   // draw 3 and 4 are those of the gathering alone.
@@ -213,13 +225,23 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     RenderSettings source = gathering;
     source.max_bounces = shown.max_bounces;
     source.diffuse.term = DiffuseTerm::direct;
-    s1 = probe(redrawn(source, 3), first);
-    s2 = probe(redrawn(source, 4), first);
-    errors.source = source_error(probe, {source, shown}, choice, within_pixels, error);
+    const Cost unprobed = probe.so_far();
+    s1 = probe(redrawn(source, 3), within_pixels ? first : pixels);
+    s2 = probe(redrawn(source, 4), within_pixels ? first : pixels);
+    if (within_pixels) {
+      errors.source = error_of_means(probe, {source, shown}, choice, error);
+      errors.field = errors.source + known_mean(first.size(), [&](std::size_t k) {
+                       return weight(k) * (g1[k] - s1[k]) * (g2[k] - s2[k]);
+                     });
+    } else {
+      std::tie(error.direct_seconds, error.direct_rays) = probe.each_since(unprobed, 2 * pixels.size());
+      const auto product = [&](std::size_t k) {
+        return weight(k) * (s1[k] - l1[k]) * (s2[k] - l1[k]);
+      };
+      errors.source = mean_of(pixels.size(), product);
+      errors.field += errors.source - mean_of(first.size(), product);
+    }
   }
-  errors.field = errors.source + known_mean(first.size(), [&](std::size_t k) {
-                   return weight(k) * (g1[k] - s1[k]) * (g2[k] - s2[k]);
-                 });
   const auto apart = [&](std::size_t k) {
     const glm::vec3 change = (g1[k] - s1[k]) - (g2[k] - s2[k]);
     return weight(k) * change * change;
@@ -228,13 +250,7 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   if (is_capped(probe.settings)) {
     RenderSettings capped = gathering;
     capped.max_bounces = shown.max_bounces;
-    capped.diffuse.gather.max_bounces = probe.settings.pass_one.form_factors.max_bounces;
-    const Radiances c1 = probe(redrawn(capped, 3), first),
-                    c2 = probe(redrawn(capped, 4), first);
-    const auto beyond = [&](std::size_t k) {
-      return weight(k) * (g1[k] - c1[k]) * (g2[k] - c2[k]);
-    };
-    errors.tail = mean_of(first.size(), beyond);
+    errors.tail = light_beyond(probe, capped, {g1, g2}, choice);
   }
 }
 

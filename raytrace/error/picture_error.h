@@ -13,14 +13,13 @@
 //
 // where light that is computed at the hit in both is drawn alike, and drops out:
 // its noise is that of the pixels.
-// Of indirect light L_1 and L_2 are at the end of the same ray; of light from emitters, at as many
-// places as the picture can tell apart,
+// Where the view has a field as fine as its pixels, edges are off to either side within a pixel, which its
+// samples do not show. There light from emitters is compared in means,
 //
 //   mean over pixels of (D_a - L_a)(D_b - L_b),      a and b means over different rays of the same pixel
 //
-// so that what is off to either side of an edge within a pixel does not count, which its samples do not show.
-// Products of both are left out: edges are off to either side. The first counts for no less than its standard
-// error: what is below that is not known. (The second's is that of the few pixels at edges that were met.)
+// and indirect light by itself at the ends of the same rays; products of both are left out. Each counts for no less
+// than its standard error: what is below that is not known.
 // The whole is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2
 // is noise of vertices (4/9 is the mean of the sum of squared weights of bilinear interpolation),
 // mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and

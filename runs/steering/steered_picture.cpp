@@ -194,8 +194,11 @@ void add_costs(Steering& steering, const PictureError& error, SteeredRun& run) {
                            seconds.interpolate;
   measured.pass_two_cost = seconds.render;
   if (steering.view && measured.knobs.term == DiffuseTerm::direct) {
-    measured.pass_two_cost += steering.view->seconds;
-    steering.view->seconds = measured.pass_two_cost;
+    double& first = steering.view->seconds;
+    if (first > 0.0)
+      measured.pass_two_cost += first;
+    else
+      first = measured.pass_two_cost;
   }
   measured.estimate_cost = seconds.estimate;
   measured.direct_cost = error.direct_seconds;

@@ -33,6 +33,7 @@ completions=${lines[0]}
 prepare
 mkdir shared && cp jobs.json room.gltf shared
 pods=()
+trap 'kill "${pods[@]}" 2> /dev/null || true; wait' EXIT # where one fails, the others end too
 for ((index = 0; index < completions; index++)); do
   arguments=()
   for argument in "${lines[@]:1}"; do

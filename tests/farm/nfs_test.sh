@@ -117,8 +117,10 @@ wait_for 200 '[[ -s whole-done-2 && -s whole-done-3 ]]' || fail "two machines ha
 [[ $(< asked) == held ]] || fail 'a lock that one machine holds was had by the other'
 
 wait_for 100 '(($(made cut-2.log) >= 2)) || [[ -s cut-done-3 ]]' || fail "no pictures: $(tail -n 2 cut-?.log)"
+[[ ! -s cut-done-3 ]] || fail 'all pictures were made before a machine could be cut off'
 ip -n "$id" link set tap2 down
 at_once=$(made cut-2.log)
+((at_once < pictures)) || fail 'the machine that was cut off had made all pictures'
 wait_for 200 '[[ -e copied ]]' || fail "the machine that is left has not ended: $(tail -n 2 cut-3.log)"
 
 for name in whole-2 whole-3 cut-3; do
