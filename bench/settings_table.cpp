@@ -16,6 +16,7 @@
 #include "image/display.h"
 #include "image/metrics/metrics.h"
 #include "image/metrics/relative_error.h"
+#include "radiosity/scene/small_elements.h"
 #include "raytrace/error/probes.h"
 #include "runs/reference_run.h"
 #include "runs/steering/setting_options.h"
