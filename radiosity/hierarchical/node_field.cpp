@@ -4,7 +4,6 @@
 #include "radiosity/field/curves/smooth_vertices.h"
 #include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/light/gather_noise.h"
-#include "radiosity/hierarchical/node_correction.h"
 #include "radiosity/hierarchical/node_gathering.h"
 #include "radiosity/field/refine_direct.h"
 #include "radiosity/field/vertex_places.h"
@@ -21,12 +20,18 @@ namespace {
 constexpr RayShare first_share{few_rays, 1};
 constexpr double first_spared = 1.0, small_spared = 0.1; // of bright clusters there
 
-/// What elements receive: from the source as it was found for them (node_light.h), the rest by their corners.
-std::vector<Rgb> received_at_corners(const ElementLight& elements, const VertexSamples& found,
+/// What elements receive, by their corners: all of it where they share points for light from the
+/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
+std::vector<Rgb> received_at_corners(const ElementLight& elements, const HierarchicalSolution& receivers,
+                                     const VertexSamples& found,
+                                     const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
-  std::vector<Rgb> received = curved_means(found.mesh, edges_of(found.mesh), indirect);
+  const VertexEdges edges = edges_of(found.mesh);
+  std::vector<Rgb> received = curved_means(found.mesh, edges, irradiance);
+  const std::vector<Rgb> rest = curved_means(found.mesh, edges, indirect);
   for (std::size_t e = 0; e < received.size(); ++e)
-    received[e] += elements.from_source[e];
+    if (receivers.share_light[e] == 0)
+      received[e] = elements.from_source[e] + rest[e];
   return received;
 }
 
@@ -47,16 +52,20 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
 }
 
 /// What lamps have in the light that elements send on, as their corners tell.
-LightByLamp reflected_by_lamp(const ElementLight& elements, const VertexSamples& found,
-                              const std::vector<Rgb>& reflected,
+LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSolution& receivers,
+                              const VertexSamples& found, const std::vector<Rgb>& reflected,
                               std::span<const std::uint8_t> gathered) {
   LightByLamp by_lamp = elements.by_lamp;
   for (std::size_t l = 0; l < found.field.by_lamp.size(); ++l) {
+    const auto& [direct, rest] = found.field.by_lamp[l];
+    std::vector<glm::vec3> all = direct;
+    for (std::size_t v = 0; v < all.size(); ++v)
+      all[v] += rest[v];
     const ElementLight of_lamp{.reflected = {},
                                .irradiance = {},
                                .from_source = light_of_lamp(elements.from_source_by_lamp, l)};
-    const std::vector<Rgb> received =
-        received_at_corners(of_lamp, found, filled(found, found.field.by_lamp[l].indirect));
+    const std::vector<Rgb> received = received_at_corners(
+        of_lamp, receivers, found, filled(found, std::move(all)), filled(found, rest));
     set_light_of_lamp(by_lamp, l,
                       scattered(found.mesh.reflectance, elements.translucent, received));
   }
@@ -71,7 +80,6 @@ LightByLamp reflected_by_lamp(const ElementLight& elements, const VertexSamples&
 /// The outcome of the first gathering.
 struct FirstField {
   SentLight sent; ///< B, the radiosity of the elements by the field that they make themselves
-  std::vector<Rgb> received; ///< H, of which that is
   VertexIrradiance field;
   std::vector<VertexState> states;
 };
@@ -162,7 +170,8 @@ FirstField first_field(const VertexSource& few, const HierarchicalSolution& rece
             found);
   take_solved(elements, gathered, lit, states, found);
   std::vector<Rgb> received =
-      received_at_corners(elements, found, filled(found, found.field.indirect));
+      received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
+                          filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e) {
     if (gathered[e] == 0)
@@ -171,11 +180,10 @@ FirstField first_field(const VertexSource& few, const HierarchicalSolution& rece
       reflected[e] = found.mesh.reflectance[e] * received[e];
   }
   add_from_behind(elements, received, reflected);
-  LightByLamp by_lamp = reflected_by_lamp(elements, found, reflected, gathered);
+  LightByLamp by_lamp = reflected_by_lamp(elements, receivers, found, reflected, gathered);
   std::swap(found.field, lit);
   std::swap(found.states, states);
-  return {{std::move(reflected), std::move(by_lamp)}, std::move(received), std::move(lit),
-          std::move(states)};
+  return {{std::move(reflected), std::move(by_lamp)}, std::move(lit), std::move(states)};
 }
 
 /// By ElementVertexId, 1: no receiver that shows something seen has it.
@@ -208,19 +216,6 @@ void keep_first(const FirstField& first, std::span<const std::uint8_t> left_out,
   for (std::size_t v = 0; v < left_out.size(); ++v)
     if (left_out[v] != 0)
       found.states[v] = first.states[v];
-}
-
-/// What receivers have sent on wrongly, by what the second gathering finds beyond the first.
-void correct_by_receivers(const ElementLight& elements, const ReceiverSystem& system,
-                          const FirstField& first, VertexSamples& found,
-                          InterpolatedField& result) {
-  std::vector<Rgb> missed = result.received;
-  for (std::size_t e = 0; e < missed.size(); ++e)
-    missed[e] = elements.irradiance[e] == Rgb(0.0) ? Rgb(0.0) : missed[e] - first.received[e];
-  const std::vector<Rgb> more = further_reflected(system, missed);
-  add_reflected(more, result.received);
-  add_reflected(system, found, more, result.field);
-  add_reflected(system, found, more, found.field);
 }
 
 /// `found` has direct light, and the values of vertices that take means of facets.
@@ -258,8 +253,8 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
             found);
   keep_first(first, left_out, found);
   InterpolatedField result{.field = complete_field(source, found)};
-  result.received = received_at_corners(elements, found, result.field.indirect);
-  correct_by_receivers(elements, receivers.system, first, found, result);
+  result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
+                                        result.field.indirect);
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
   refine_indirect(light, source, scale, how.interpolation.bend, found, result);
   refine_direct(light, source, {scale, how.interpolation.shadow_bend, how.seen_direct}, std::move(found),

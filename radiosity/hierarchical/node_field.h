@@ -5,9 +5,8 @@
 // from the elements as they were solved, with a quarter of the rays,
 // but not fewer than 128, and four times the bound, and then from what that makes of them,
 //
-//   B_j = rho_j (D_j + mean of the rest, by its corners and second differences; curved_means.h).
+//   B_j = rho_j (mean of H, by its corners and second differences; curved_means.h).
 //
-// What the second finds beyond the first is sent on by the receivers (node_correction.h).
 // The first is spared on surfaces so small that less than one of 512 rays lands on each: A_surface < A / 512.
 // They send what they were solved to; it is beside the edges of large ones that this is too even.
 // Receivers of which nothing is seen (pass_one.h) keep the light of the first, or what they were solved to.

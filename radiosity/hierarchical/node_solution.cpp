@@ -31,8 +31,6 @@ struct Received {
   std::vector<Rgb> irradiance; ///< H by receiver, 0 in traps (solve.h)
   std::vector<Rgb> open;       ///< likewise and by channel, 0 in traps; empty where there is none
   Transport links;
-  std::vector<Rgb> reflectance;
-  TranslucentLinks translucent;
 };
 
 /// tau_cd, the mean over the elements of c of the sum over those of d.
@@ -66,11 +64,10 @@ Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLi
                          const std::vector<double>& areas, const SolverSettings& settings) {
   Received received;
   received.links = between_receivers(cut);
-  received.reflectance = means_below(tree, cut, areas, first.reflectance);
-  received.translucent = translucent_links_of_receivers(cut, first.translucent, areas);
-  const std::vector<Rgb>& reflectance = received.reflectance;
-  const TranslucentLinks& translucent = received.translucent;
+  const std::vector<Rgb> reflectance = means_below(tree, cut, areas, first.reflectance);
   const std::vector<Rgb> from_first = transport_product(cut.rows, first.source);
+  const TranslucentLinks translucent =
+      translucent_links_of_receivers(cut, first.translucent, areas);
   const std::vector<Rgb> source = scattered(reflectance, translucent, from_first);
   received.solver = solve(received.links, source, {reflectance, translucent}, settings);
   received.irradiance = apply_transport(received.links, received.solver.radiosity);
@@ -268,14 +265,18 @@ SolverSettings roughly(SolverSettings settings) {
 }
 
 /// Each lamp's light by the same rows: H_l of receivers, and of elements X_l = S_l + rho H_l.
-void tell_lamps_apart(const LitCut& lit, const Received& solved, const SolverSettings& settings, NodeSolution& result) {
+void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Received& solved,
+                      const SolverSettings& settings, NodeSolution& result) {
   const Transport& links = solved.links;
   const NodeCut& cut = lit.cut;
   const FirstLight& first = lit.first;
   const Scattering of_elements{first.reflectance, first.translucent};
   const LightByLamp source = scattered(of_elements, first.by_lamp);
   const LightByLamp from_first = transport_product(cut.rows, source);
-  const Scattering of_receivers{solved.reflectance, solved.translucent};
+  const std::vector<Rgb> reflectance = means_below(tree, cut, lit.areas, first.reflectance);
+  const TranslucentLinks translucent =
+      translucent_links_of_receivers(cut, first.translucent, lit.areas);
+  const Scattering of_receivers{reflectance, translucent};
   const LightByLamp sent =
       solve_together(links, scattered(of_receivers, from_first), of_receivers, settings);
   LightByLamp received = from_first + transport_product(links, sent);
@@ -287,15 +288,6 @@ void tell_lamps_apart(const LitCut& lit, const Received& solved, const SolverSet
     arrived.row(e) = received.row(cut.receiver_of_element[static_cast<std::size_t>(e)]);
   result.reflected_by_lamp = source + scattered(of_elements, arrived);
   result.irradiance_by_lamp = first.by_lamp + arrived;
-}
-
-ReceiverSystem system_of(Received solved, LitCut lit, const SolverSettings& settings) {
-  return {std::move(solved.links),
-          std::move(solved.reflectance),
-          std::move(solved.translucent),
-          std::move(lit.cut.receiver_of_element),
-          std::move(lit.areas),
-          settings};
 }
 
 std::uint64_t bytes_of(const Transport& transport) {
@@ -348,7 +340,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   // B = S + rho H, what receivers have pushed down to their elements.
   const NodeCut& cut = lit.cut;
   if (light.lamps)
-    tell_lamps_apart(lit, received, settings.solver, result);
+    tell_lamps_apart(lit, tree, received, settings.solver, result);
   result.first = std::move(lit.first);
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
@@ -366,13 +358,12 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
                         bytes_of(received.links)};
   result.receivers = {
       std::move(tree),        std::move(lit.cut.receivers), settings.hierarchical.link_error,
-      std::move(lit.covered), {}, {}};
+      std::move(lit.covered), std::move(lit.direct.shared), {}};
   if (vertices) {
     result.rays_traced += vertices->rays;
     result.first.shadow_rays += vertices->shadow_rays;
     result.receivers.vertices = std::move(vertices->found);
     result.receivers.vertices.entering.clear();
-    result.receivers.system = system_of(std::move(received), std::move(lit), settings.solver);
   }
   return result;
 }
