@@ -65,6 +65,8 @@ endif()
 # meninas_chapters(meninas_scenes): the sources of each folder of that library are compiled as one.
 function(meninas_chapters target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${MENINAS_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  # The file of a chapter names its sources by whole paths, which messages and packages should not know.
+  target_compile_options(${target} PRIVATE "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH chapter)

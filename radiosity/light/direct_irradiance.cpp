@@ -184,10 +184,8 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
     sum.total += arrived;
     if (light.lamps)
       add_of_emitter(*light.lamps, image.emitter, arrived, work.by_lamp);
-    if (image.world != real_world)
-      sum.mirrored += arrived;
-    if (light.emitters[image.emitter].area_light != no_area_light)
-      sum.entering += arrived;
+    sum.mirrored += image.world != real_world ? arrived : Rgb(0.0);
+    sum.entering += light.emitters[image.emitter].area_light != no_area_light ? arrived : Rgb(0.0);
   };
   // One that stands for others of its group has them to share its shadow rays with: it takes one.
   work.sampled.clear();

@@ -40,7 +40,7 @@ Error error_of(const Call& call) {
 }
 
 TEST(Library, NodesEmitWhatTheyAreTold) {
-  const Room room = gallery("furnace"), dark = room.emitting({{"x0", {0.0, 0.0, 0.0}}});
+  const Room room = gallery("furnace"), dark = room.emitting({{"floor", {0.0, 0.0, 0.0}}});
   // One wall of six less: the others send less back to each other too, and the room itself is as it was.
   const auto before = room.solve(), after = dark.solve();
   for (std::size_t k = 0; k < after.irradiance().size(); ++k)
