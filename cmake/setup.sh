@@ -47,7 +47,7 @@ may_install() {
   disk=$(sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' <<<"$costs")
   note "$# packages are missing: $*"
   note "they and what they need are ${download:-some 270 MB} to download and ${disk:-about 1.1 GB} of disk, a few minutes" \
-    "to install; building takes some seven minutes more"
+    "to install; building takes some four minutes more"
   printf 'meninas: install them? [Y/n, no after a minute] ' >&2
   if ! read -r -t 60 answer </dev/tty; then
     printf '\n' >&2
