@@ -52,12 +52,14 @@ bool was_made(const SteeredChoice& choice, const Parameters& knobs) {
   });
 }
 
-/// Parameters whose turning did not help: the estimate does not know what is wrong.
-void leave_alone(FreeKnobs& free, const Parameters& before, const Parameters& turned) {
-  free.elements = free.elements && turned.elements == before.elements;
-  free.rays = free.rays && turned.rays == before.rays;
-  free.samples = free.samples && turned.samples == before.samples;
-  free.term = free.term && (turned.term == before.term || turned.term != DiffuseTerm::gather);
+/// Parameters whose turning did not help their own part of the error: the estimate does not know what is wrong.
+void leave_alone(FreeKnobs& free, const MeasuredRun& before, const MeasuredRun& turned) {
+  const Parameters &was = before.knobs, &is = turned.knobs;
+  const auto helped = [&](double PictureError::*part) { return turned.error.*part < before.error.*part; };
+  free.elements = free.elements && (is.elements == was.elements || helped(&PictureError::mesh));
+  free.rays = free.rays && (is.rays == was.rays || helped(&PictureError::form_factors));
+  free.samples = free.samples && (is.samples == was.samples || helped(&PictureError::pixels));
+  free.term = free.term && (is.term == was.term || is.term != DiffuseTerm::gather);
 }
 
 bool gathers(const MeasuredRun& run) { return run.knobs.term == DiffuseTerm::gather; }
@@ -104,7 +106,7 @@ struct Search {
     note(events, describe_step(choice.steps.back(), choice.steps.size()));
     double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
     if (best && error >= worthwhile * this->error())
-      leave_alone(steering.free, best->measured.knobs, next.knobs);
+      leave_alone(steering.free, best->measured, run->measured);
     if (!best || error < this->error()) {
       if (best && gathers(run->measured) && !gathers(best->measured)) {
         // What elements reflect may well be known better by finer ones,
