@@ -13,6 +13,7 @@
 #include <mutex>
 #include <sys/random.h>
 #include <thread>
+#include <utility>
 
 namespace meninas::web {
 namespace {
@@ -32,20 +33,23 @@ std::string random_token() {
   return token;
 }
 
+/// Nothing, or since cpp-httplib 0.18 whether the job was accepted.
+using Accepted = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
 /// Threads, and so many connections that wait for one. More are not accepted before there is room: they wait in the
 /// system's own short queue, and past that they are refused.
 class BoundedThreads : public httplib::TaskQueue {
 public:
   explicit BoundedThreads(const std::atomic<bool>& over) : over_(over), threads_(most_connections) {}
 
-  void enqueue(std::function<void()> job) override {
+  Accepted enqueue(std::function<void()> job) override {
     constexpr std::chrono::milliseconds patience(100);
     std::unique_lock lock(mutex_);
     while (!room_.wait_for(lock, patience, [this] { return waiting_ < most_waiting || over_; })) {
     }
     ++waiting_;
     lock.unlock();
-    threads_.enqueue([this, job = std::move(job)] {
+    return threads_.enqueue([this, job = std::move(job)] {
       {
         const std::scoped_lock begins(mutex_);
         --waiting_;

@@ -89,11 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, BakeBrowser,
                          testing::Values(DrawnCase{"cornell.gltf", "main"}, DrawnCase{"no-mirror.gltf", "main"},
                                          DrawnCase{"half-room.gltf", "main"}, DrawnCase{"meninas.gltf", "main"},
                                          DrawnCase{"sunbeam.gltf", "main"}, DrawnCase{"blender-room.glb", "Camera"}),
-                         [](const auto& instance) {
-                           std::string name = instance.param.scene;
-                           std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
-                           return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param.scene); });
 
 } // namespace
 } // namespace meninas::test

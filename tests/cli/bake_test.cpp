@@ -80,11 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, BakeTruth,
                          testing::Values(TruthCase{"meninas.gltf", "main"}, TruthCase{"cornell-mirror.gltf", "main"},
                                          TruthCase{"half-room.gltf", "main"}, TruthCase{"facing-mirrors.gltf", "main"},
                                          TruthCase{"sunbeam.gltf", "main"}, TruthCase{"blender-room.glb", "Camera"}),
-                         [](const auto& instance) {
-                           std::string name = instance.param.scene;
-                           std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
-                           return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param.scene); });
 
 TEST_F(Bake, TheKhronosValidatorFindsNothing) {
   if (!has_gltf_validator(folder_.path()))

@@ -38,6 +38,11 @@ static std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string test_name(std::string scene) {
+  std::erase_if(scene, [](char c) { return c == '-' || c == '.'; });
+  return scene;
+}
+
 Outcome run_program(const fs::path& folder, const std::vector<std::string>& arguments) {
   return run_other_program(MENINAS_PROGRAM, folder, arguments);
 }

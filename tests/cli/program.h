@@ -29,6 +29,9 @@ struct Outcome {
   std::string err;
 };
 
+/// "meninas.gltf" as the name of a test: without dots and dashes.
+std::string test_name(std::string scene);
+
 /// Runs `meninas ARGUMENTS` with `folder` as its current folder.
 Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 

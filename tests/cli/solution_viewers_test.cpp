@@ -99,11 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, ReadBack,
                                          ReadBackCase{"half-room.gltf", "main"},
                                          ReadBackCase{"glass-solids.gltf", "main"},
                                          ReadBackCase{"lattice.gltf", "main"}),
-                         [](const auto& instance) {
-                           std::string name = instance.param.scene;
-                           std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
-                           return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param.scene); });
 
 } // namespace
 } // namespace meninas::test

@@ -71,13 +71,18 @@ INSTANTIATE_TEST_SUITE_P(Gallery, WalkTruth,
                                          TruthCase{"sunbeam.gltf", "main", "-1", 3},
                                          TruthCase{"cornell-mirror.gltf", "main", "1", 2},
                                          TruthCase{"blender-room.glb", "Camera", "1", 2},
+                                         TruthCase{"cornell.gltf", "main", "1.5", 1},
+                                         TruthCase{"no-mirror.gltf", "main", "-1", 1},
+                                         TruthCase{"doubled-room.gltf", "main", "0.5", 1},
+                                         TruthCase{"mirror-spot.gltf", "main", "4", 1},
+                                         TruthCase{"furnace.gltf", "main", "-1.5", 1},
+                                         TruthCase{"globillum-1.gltf", "main", "3.5", 1},
+                                         TruthCase{"globillum-2.gltf", "main", "5", 1},
+                                         TruthCase{"globillum-3.gltf", "main", "3.5", 1},
+                                         TruthCase{"solar-row.gltf", "main", "-6.5", 1},
                                          // Lobes by 48 facets, and by what one point sees: 0.028.
                                          TruthCase{"roughness-sweep.gltf", "main", "1", 4, 0.032}),
-                         [](const auto& instance) {
-                           std::string name = instance.param.scene;
-                           std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
-                           return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param.scene); });
 
 TEST_F(Walk, ThePageIsOneFileThatNeedsNothingElse) {
   write_tiny_page();

@@ -2,6 +2,7 @@
 // and the two passes against it.
 #include "form_factors/point_form_factor.h"
 #include "raytrace/two_pass.h"
+#include "tests/reference/agreement.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/rooms.h"
 
@@ -76,39 +77,14 @@ TEST(AreaLightPaths, AreFoundInEveryWay) {
     }
 }
 
-struct Sight {
-  const char* what;
-  Point3 eye, target;
-};
-
-/// Radiances of the two passes within four standard errors of the paths and a hundredth, the error of the field
-/// on 10 cm elements.
-void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
-  PassOneSettings settings;
-  settings.mesh.element_size = 0.1;
-  settings.form_factors.rays = settings.interpolation.rays = 256;
-  const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
-  for (const DiffuseTerm term : {DiffuseTerm::direct, DiffuseTerm::interpolated}) {
-    RenderSettings picture;
-    picture.width = picture.height = 1;
-    picture.samples = 64;
-    picture.glossy_samples = 64;
-    picture.diffuse.term = term;
-    for (const Sight& sight : sights) {
-      SCOPED_TRACE(sight.what);
-      const Rgb found = render(solution.field, look_at(sight.eye, sight.target, 1e-4), picture).image.pixels[0];
-      const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 1024);
-      for (int band = 0; band < 3; ++band) {
-        EXPECT_LT(truth.error[band], 0.02 * truth.mean[band]);
-        EXPECT_NEAR(found[band], truth.mean[band], 4.0 * truth.error[band] + 0.01 * truth.mean[band]);
-      }
-    }
-  }
+/// With direct light at hits, and by the field alone.
+void expect_both_terms(const Scene& scene, std::initializer_list<Sight> sights) {
+  for (const DiffuseTerm term : {DiffuseTerm::direct, DiffuseTerm::interpolated})
+    expect_agreement(scene, sights, {.term = term, .paths = 1024, .noise = 0.02});
 }
 
 TEST(AreaLightPictures, AgreeWithPathsAlsoAboveTheLightAndInAMirror) {
-  expect_agreement(room_with_panel(), {{"the ceiling above it", {1.5, 0.8, 2.5}, {0.5, 2.4, 1.3}},
+  expect_both_terms(room_with_panel(), {{"the ceiling above it", {1.5, 0.8, 2.5}, {0.5, 2.4, 1.3}},
                                        {"the floor", {1.5, 1.5, 1.2}, {0.6, 0.0, 2.6}},
                                        {"a wall", {0.3, 1.5, 1.5}, {2.0, 0.7, 1.0}},
                                        {"the light in the mirror", {1.9, 0.2, 1.6}, {0.0, 0.83, 1.6}},
@@ -123,7 +99,7 @@ TEST(AreaLightPictures, AgreeWithPathsInGloss) {
     Material metal = mirror(0.8);
     metal.roughness = roughness;
     add_polygon(glossy, "tray", {{0.2, 0.3, 2.6}, {1.8, 0.3, 2.6}, {1.8, 0.3, 1.4}, {0.2, 0.3, 1.4}}, metal);
-    expect_agreement(glossy, {{"in the lobe", {1.0, 1.1, 2.9}, {0.95, 0.3, 2.2}}, {"at its rim", {1.9, 1.0, 2.9}, {1.2, 0.3, 2.5}}});
+    expect_both_terms(glossy, {{"in the lobe", {1.0, 1.1, 2.9}, {0.95, 0.3, 2.2}}, {"at its rim", {1.9, 1.0, 2.9}, {1.2, 0.3, 2.5}}});
   }
 }
 

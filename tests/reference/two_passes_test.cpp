@@ -1,8 +1,8 @@
-// The two passes against paths, where light goes by glass and gloss:
-// two programs that share the materials and nothing else.
+// The two passes against paths, where light goes by glass and gloss.
 #include "image/image_file.h"
 #include "raytrace/two_pass.h"
 #include "scenes/materials/smooth_surfaces.h"
+#include "tests/reference/agreement.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"
@@ -14,44 +14,6 @@
 
 namespace meninas::test {
 namespace {
-
-Rgb seen_by_two_passes(const RadiositySolution& solution, Point3 eye, Point3 target) {
-  RenderSettings settings;
-  settings.width = settings.height = 1;
-  settings.samples = 64;
-  settings.glossy_samples = 64;
-  settings.diffuse.term = DiffuseTerm::direct;
-  settings.diffuse.refinement.solid_rays = 1 << 14;
-  return render(solution.field, look_at(eye, target, 1e-4),
-                settings)
-      .image.pixels[0];
-}
-
-struct Sight {
-  const char* what;
-  Point3 eye, target;
-};
-
-/// Radiances agree within four standard errors of the paths and the error of the field,
-/// which is that of 10 cm elements.
-void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
-  PassOneSettings settings;
-  settings.mesh.element_size = 0.1;
-  settings.form_factors.rays = settings.interpolation.rays = 256;
-  const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
-  for (const Sight& sight : sights) {
-    SCOPED_TRACE(sight.what);
-    constexpr double field_error = 0.01;
-    const Rgb found = seen_by_two_passes(solution, sight.eye, sight.target);
-    const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 512);
-    for (int band = 0; band < 3; ++band) {
-      EXPECT_LT(truth.error[band], 0.03 * truth.mean[band]);
-      EXPECT_NEAR(found[band], truth.mean[band],
-                  4.0 * truth.error[band] + field_error * truth.mean[band]);
-    }
-  }
-}
 
 TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
   expect_agreement(glazed_room(),

@@ -10,8 +10,8 @@
 set -euo pipefail
 
 program=$1 source=$2 work=$3
-# shellcheck source=tests/farm/farm.sh
-source "$source/tests/farm/farm.sh"
+# shellcheck source=tests/engines/farm.sh
+source "$source/tests/engines/farm.sh"
 [[ $(id -u) == 0 ]] || skip 'network namespaces need root'
 for tool in linux.uml exportfs rpc.nfsd rpc.mountd mount.nfs4 ip nsenter flock; do
   command -v "$tool" > /dev/null || skip "$tool is not installed: apt-get install user-mode-linux nfs-kernel-server iproute2"

@@ -4,8 +4,8 @@
 set -euo pipefail
 
 program=$1 source=$2 work=$3
-# shellcheck source=tests/farm/farm.sh
-source "$source/tests/farm/farm.sh"
+# shellcheck source=tests/engines/farm.sh
+source "$source/tests/engines/farm.sh"
 parallel --version 2> /dev/null | grep -q '^GNU parallel' || skip 'GNU parallel is not installed: ./check --all installs it'
 
 prepare

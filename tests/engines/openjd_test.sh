@@ -5,8 +5,8 @@
 set -euo pipefail
 
 program=$1 source=$2 work=$3
-# shellcheck source=tests/farm/farm.sh
-source "$source/tests/farm/farm.sh"
+# shellcheck source=tests/engines/farm.sh
+source "$source/tests/engines/farm.sh"
 command -v openjd > /dev/null || skip 'openjd is not installed: pip install openjd-cli'
 
 prepare

@@ -6,14 +6,14 @@
 set -euo pipefail
 
 program=$1 source=$2 work=$3
-# shellcheck source=tests/farm/farm.sh
-source "$source/tests/farm/farm.sh"
+# shellcheck source=tests/engines/farm.sh
+source "$source/tests/engines/farm.sh"
 manifest=$source/integrations/kubernetes/meninas-batch.yaml
 python=/usr/bin/python3
 "$python" -c 'import yaml' 2> /dev/null || skip 'python3-yaml is not installed: ./check --all installs it'
 
 if [[ -n ${KUBERNETES_OPENAPI:-} ]]; then
-  "$python" "$source/tests/farm/kubernetes_schema.py" "$KUBERNETES_OPENAPI" "$manifest" || fail 'the manifest does not fit the schema'
+  "$python" "$source/tests/engines/kubernetes_schema.py" "$KUBERNETES_OPENAPI" "$manifest" || fail 'the manifest does not fit the schema'
 fi
 
 # The number of pods, and the arguments of one, each in a line.
