@@ -52,16 +52,6 @@ bool was_made(const SteeredChoice& choice, const Parameters& knobs) {
   });
 }
 
-/// Parameters whose turning did not help their own part of the error: the estimate does not know what is wrong.
-void leave_alone(FreeKnobs& free, const MeasuredRun& before, const MeasuredRun& turned) {
-  const Parameters &was = before.knobs, &is = turned.knobs;
-  const auto helped = [&](double PictureError::*part) { return turned.error.*part < before.error.*part; };
-  free.elements = free.elements && (is.elements == was.elements || helped(&PictureError::mesh));
-  free.rays = free.rays && (is.rays == was.rays || helped(&PictureError::form_factors));
-  free.samples = free.samples && (is.samples == was.samples || helped(&PictureError::pixels));
-  free.term = free.term && (is.term == was.term || is.term != DiffuseTerm::gather);
-}
-
 bool gathers(const MeasuredRun& run) { return run.knobs.term == DiffuseTerm::gather; }
 
 /// How the mesh's error falls, if two meshes have been seen by the same light.
@@ -106,7 +96,7 @@ struct Search {
     note(events, describe_step(choice.steps.back(), choice.steps.size()));
     double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
     if (best && error >= worthwhile * this->error())
-      leave_alone(steering.free, best->measured, run->measured);
+      steering.free = worth_turning(steering.free, best->measured, run->measured);
     if (!best || error < this->error()) {
       if (best && gathers(run->measured) && !gathers(best->measured)) {
         // What elements reflect may well be known better by finer ones,

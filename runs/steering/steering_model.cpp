@@ -107,4 +107,16 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
   return next;
 }
 
+FreeKnobs worth_turning(FreeKnobs free, const MeasuredRun& before, const MeasuredRun& turned) {
+  const Parameters &was = before.knobs, &is = turned.knobs;
+  const auto helped = [&](double PictureError::*part) {
+    return turned.error.*part < before.error.*part;
+  };
+  free.elements = free.elements && (is.elements == was.elements || helped(&PictureError::mesh));
+  free.rays = free.rays && (is.rays == was.rays || helped(&PictureError::form_factors));
+  free.samples = free.samples && (is.samples == was.samples || helped(&PictureError::pixels));
+  free.term = free.term && (is.term == was.term || is.term != DiffuseTerm::gather);
+  return free;
+}
+
 } // namespace meninas

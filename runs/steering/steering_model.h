@@ -25,4 +25,8 @@ struct NextRun {
 /// hundredth of the lowest predicted error; the present parameters if none lowers it.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double cost);
 
+/// After a run that was no better: without the parameters whose turning did not help their own part of the error
+/// either, of which the estimate does not know what is wrong. Light is not gathered at hits once more.
+FreeKnobs worth_turning(FreeKnobs free, const MeasuredRun& before, const MeasuredRun& turned);
+
 } // namespace meninas

@@ -243,5 +243,25 @@ TEST(NextRun, LeavesKnobsThatWereSet) {
   EXPECT_THAT(next.why, IsEmpty());
 }
 
+// More elements, rays and samples at once: the mesh is said to be worse, the rest is better.
+TEST(WorthTurning, IsWhatHelpedItsOwnPartOfTheError) {
+  const MeasuredRun before = run_with(0.034, 0.0, 0.031, 0.034);
+  MeasuredRun turned = run_with(0.089, 0.0, 0.008, 0.003);
+  turned.knobs.elements *= 4.0;
+  turned.knobs.rays *= 8;
+  turned.knobs.samples *= 16;
+  const FreeKnobs free = worth_turning({}, before, turned);
+  EXPECT_FALSE(free.elements);
+  EXPECT_TRUE(free.rays && free.samples && free.term);
+  turned.error.form_factors = 0.04;
+  EXPECT_FALSE(worth_turning({}, before, turned).rays);
+  EXPECT_FALSE(worth_turning({.samples = false}, before, turned).samples) << "a user has set it";
+  turned.knobs = before.knobs;
+  turned.knobs.term = DiffuseTerm::gather;
+  const FreeKnobs gathered = worth_turning({}, before, turned);
+  EXPECT_TRUE(gathered.elements && gathered.rays && gathered.samples);
+  EXPECT_FALSE(gathered.term);
+}
+
 } // namespace
 } // namespace meninas
