@@ -227,6 +227,21 @@ class Failures(unittest.TestCase):
         path.unlink()
         self.assertGreaterEqual(room.plan()["emitters"], 1)
 
+    def test_a_plan_has_the_warnings_of_the_file_that_were_told(self):
+        document = json.loads((GALLERY / "furnace.gltf").read_text())
+        document.setdefault("extensionsUsed", []).append("EXT_lights_area")
+        document.setdefault("extensions", {})["EXT_lights_area"] = {"lights": [{"type": "rect", "size": 0.0}]}
+        document["scenes"][0]["nodes"].append(len(document["nodes"]))
+        document["nodes"].append({"name": "panel", "extensions": {"EXT_lights_area": {"light": 0}}})
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "room.gltf"
+            path.write_text(json.dumps(document))
+            told = []
+            room = meninas.load(path, quality="draft", warning=told.append)
+        expected = [text for text in told if "without area" in text]
+        self.assertEqual(len(expected), 1)
+        self.assertEqual([text for text in room.plan()["warnings"] if "without area" in text], expected)
+
     def test_control_c_ends_a_long_call(self):
         room = gallery("meninas")
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
