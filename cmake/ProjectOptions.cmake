@@ -29,7 +29,8 @@ if(PROJECT_IS_TOP_LEVEL AND MENINAS_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LA
 endif()
 
 # Contracted multiply-adds would give different bits on different processors.
-add_compile_options(-ffp-contract=off)
+# Square roots need not set errno, nor selections between lanes be branches: what is computed stays the same.
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(MENINAS_SANITIZE)
   add_compile_options(-fsanitize=${MENINAS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${MENINAS_SANITIZE})
@@ -49,10 +50,11 @@ target_compile_options(meninas_options INTERFACE
 # The standard library checks its preconditions wherever speed is not the point.
 target_compile_definitions(meninas_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 
-# Most of the time of a build is spent on reading these again and again. Folders add what many of their sources read,
-# but not nlohmann/json.hpp: it instantiates templates by itself, which costs every source 0.6 s, and reading it 1.6 s.
-set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <numeric> <optional> <span>
-  <string> <string_view> <utility> <vector>)
+# Headers that most sources read are compiled once for all libraries, and once more for those that only read and write (-O1).
+# nlohmann/json.hpp is not among them: it instantiates templates by itself, which costs every source 0.6 s.
+set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numeric>
+  <optional> <set> <span> <string> <string_view> <unordered_map> <utility> <vector> <fmt/format.h> <fmt/ranges.h>
+  <tbb/enumerable_thread_specific.h> <tbb/parallel_for.h>)
 
 # A release reads the headers of a chapter once: the sources of one folder are compiled as one. Where single sources change all day,
 # -DMENINAS_UNITY_BUILD=OFF compiles each by itself; the presets with debug information do, so each source includes what it needs.
@@ -75,14 +77,24 @@ function(meninas_chapters target)
   endforeach()
 endfunction()
 
+# Nothing but the precompiled headers: meninas_headers, meninas_headers_quick.
+function(meninas_precompile name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+  target_link_libraries(${name} PRIVATE meninas_options glm::glm fmt::fmt TBB::tbb)
+  target_precompile_headers(${name} PRIVATE ${MENINAS_COMMON_HEADERS})
+  target_compile_options(${name} PRIVATE ${ARGN})
+endfunction()
+
+set(MENINAS_HEADERS meninas_headers) # whose precompiled headers the libraries of a folder read
+
 # meninas_library(scenes a.cpp b.cpp): the library of one folder; includes are written from the project's root.
 function(meninas_library folder)
   add_library(meninas_${folder} STATIC ${ARGN})
   add_library(meninas::${folder} ALIAS meninas_${folder})
   target_include_directories(meninas_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_features(meninas_${folder} PUBLIC cxx_std_20)
-  target_link_libraries(meninas_${folder} PRIVATE meninas_options)
-  target_precompile_headers(meninas_${folder} PRIVATE ${MENINAS_COMMON_HEADERS})
+  target_link_libraries(meninas_${folder} PRIVATE meninas_options fmt::fmt TBB::tbb)
+  target_precompile_headers(meninas_${folder} REUSE_FROM ${MENINAS_HEADERS})
   meninas_chapters(meninas_${folder})
 endfunction()
 
@@ -102,7 +114,8 @@ endfunction()
 function(meninas_tests folder)
   add_executable(${folder}_tests ${ARGN})
   target_link_libraries(${folder}_tests PRIVATE meninas_options meninas_test_support GTest::gmock GTest::gtest_main)
-  target_precompile_headers(${folder}_tests PRIVATE ${MENINAS_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  target_precompile_headers(${folder}_tests PRIVATE
+    <glm/glm.hpp> <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <span> <string> <string_view> <vector> <gmock/gmock.h> <gtest/gtest.h>)
   # ctest -L physics: closed forms and invariants; -L pictures: whatever renders; -L quick: the rest.
   set(label quick)
   if(folder STREQUAL physics)

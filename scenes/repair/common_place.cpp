@@ -1,24 +1,27 @@
 #include "scenes/repair/common_place.h"
 
-#include <Eigen/SVD>
+#include "scenes/surfaces/principal_axes.h"
+
+#include <cmath>
 
 namespace meninas {
 
 Vec3 way_into(const Point3& x, std::span<const Plane> planes) {
   constexpr double same_plane = 0.05;
-  // Of a fixed number of columns there is no thin decomposition where planes are fewer.
-  Eigen::MatrixXd normals(planes.size(), 3);
-  Eigen::VectorXd rest(planes.size());
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    normals.row(row) << planes[k].normal.x, planes[k].normal.y, planes[k].normal.z;
-    rest[row] = -signed_distance(planes[k], x);
+  glm::dmat3 squares(0.0);
+  Vec3 moments(0.0);
+  for (const Plane& plane : planes) {
+    squares += glm::outerProduct(plane.normal, plane.normal);
+    moments -= signed_distance(plane, x) * plane.normal;
   }
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(same_plane);
-  const Eigen::Vector3d way = svd.solve(rest);
+  // Of N^T N the values are the squares of N's singular values: along axes whose is too small, planes say nothing.
+  const auto [values, axes] = principal_axes(squares);
+  Vec3 way(0.0);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (values[k] > same_plane * same_plane * values[2])
+      way += glm::dot(axes[k], moments) / values[k] * axes[k];
   // Coordinates whose squares overflow have no place in common.
-  return way.allFinite() ? Vec3(way.x(), way.y(), way.z()) : Vec3(0.0);
+  return std::isfinite(glm::dot(way, way)) ? way : Vec3(0.0);
 }
 
 } // namespace meninas

@@ -2,9 +2,8 @@
 
 #include "scenes/repair/common_place.h"
 #include "scenes/surfaces/disjoint_sets.h"
+#include "scenes/surfaces/principal_axes.h"
 #include "scenes/surfaces/regions.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -151,21 +150,11 @@ private:
   /// Least squares of the distances, about the mean so that far coordinates cancel.
   Plane plane_through(std::span<const VertexId> vertices, const Vec3& area) const {
     const Point3 origin = at(vertices.front());
-    Vec3 sum(0.0);
+    std::vector<Vec3> offsets;
+    offsets.reserve(vertices.size());
     for (const VertexId v : vertices)
-      sum += at(v) - origin;
-    const Vec3 mean = sum / static_cast<double>(vertices.size());
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    for (const VertexId v : vertices) {
-      const Vec3 d = at(v) - origin - mean;
-      const Eigen::Vector3d x(d.x, d.y, d.z);
-      squares += x * x.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
-    const Eigen::Vector3d least = solver.eigenvectors().col(0);
-    Direction normal = glm::normalize(Vec3(least.x(), least.y(), least.z()));
-    normal = glm::dot(normal, area) < 0.0 ? -normal : normal;
-    return {normal, glm::dot(normal, origin) + glm::dot(normal, mean)};
+      offsets.push_back(at(v) - origin);
+    return fitted_plane(offsets, origin, area);
   }
 
   Fit fit_of(std::span<const TriangleId> triangles) const {

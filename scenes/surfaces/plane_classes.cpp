@@ -1,9 +1,9 @@
 // Plane classes, in two steps: regions are gathered around the widest one whose plane they may
 // share, then the gathering is kept as far as one plane really holds all their vertices.
 #include "scenes/surfaces/plane_search.h"
+#include "scenes/surfaces/principal_axes.h"
 #include "scenes/surfaces/regions.h"
 
-#include <Eigen/Eigenvalues>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -159,31 +159,14 @@ private:
   Plane fit(Members members) const {
     const Plane& rough = region_of(members.front()).plane;
     const Point3& origin = pieces_[members.front()].centre;
-    Vec3 sum(0.0);
-    double count = 0.0;
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    const auto each_corner = [&](auto&& visit) {
-      for (const std::uint32_t member : members) {
-        every_corner(region_of(member), [&](const Point3& corner) {
-          visit(corner - origin);
-          return true;
-        });
-      }
-    };
-    each_corner([&](const Vec3& x) {
-      sum += x;
-      count += 1.0;
-    });
-    const Vec3 mean = sum / count;
-    each_corner([&](const Vec3& x) {
-      const Eigen::Vector3d d(x.x - mean.x, x.y - mean.y, x.z - mean.z);
-      squares += d * d.transpose();
-    });
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
-    const Eigen::Vector3d least = solver.eigenvectors().col(0);
-    Direction normal = glm::normalize(Vec3(least.x(), least.y(), least.z()));
-    normal = glm::dot(normal, rough.normal) < 0.0 ? -normal : normal;
-    return {normal, glm::dot(normal, origin) + glm::dot(normal, mean)};
+    std::vector<Vec3> offsets;
+    for (const std::uint32_t member : members) {
+      every_corner(region_of(member), [&](const Point3& corner) {
+        offsets.push_back(corner - origin);
+        return true;
+      });
+    }
+    return fitted_plane(offsets, origin, rough.normal);
   }
 
   void settle(Members members, PlaneClasses& classes) const {
