@@ -64,7 +64,8 @@ else()
   option(MENINAS_UNITY_BUILD "Compile the sources of one folder as one" ON)
 endif()
 
-# meninas_chapters(meninas_scenes): the sources of each folder of that library are compiled as one.
+# meninas_chapters(meninas_scenes): the sources of each folder of that library are compiled as one,
+# and those of its folders of at most five sources together.
 function(meninas_chapters target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${MENINAS_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   # The file of a chapter names its sources by whole paths, which messages and packages should not know.
@@ -73,7 +74,17 @@ function(meninas_chapters target)
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH chapter)
     string(REPLACE "/" "_" chapter "chapter_${chapter}")
-    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${chapter})
+    list(APPEND chapters ${chapter})
+    list(APPEND sources_of_${chapter} ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES chapters)
+  foreach(chapter IN LISTS chapters)
+    list(LENGTH sources_of_${chapter} length)
+    set(group ${chapter})
+    if(length LESS_EQUAL 5)
+      set(group small_chapters)
+    endif()
+    set_property(SOURCE ${sources_of_${chapter}} PROPERTY UNITY_GROUP ${group})
   endforeach()
 endfunction()
 

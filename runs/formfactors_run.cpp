@@ -1,6 +1,7 @@
 #include "runs/formfactors_run.h"
 
 #include "raytrace/scene_textures.h"
+#include "runs/report/csv_field.h"
 #include "runs/resources.h"
 #include "scenes/gltf/tree.h"
 #include "scenes/rays/mixed_scales.h"
@@ -187,18 +188,6 @@ std::vector<NodeSet> scattering_nodes(const Scene& scene, const SurfaceModel& su
     sets[place->second].push_back(NodeId{n});
   }
   return sets;
-}
-
-/// A field of a CSV row; quoted where its text would be taken for something else (RFC 4180).
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + '"';
 }
 
 std::string matrix(const Scene& scene, const SurfaceModel& surfaces,

@@ -142,12 +142,13 @@ void add_geometry(ContentHash& hash, const Scene& scene) {
   hash.add(std::uint64_t{scene.vertices.size()});
   for (const Vertex& vertex : scene.vertices) {
     hash.add(vertex.position);
-    for (const glm::vec2& texcoord : vertex.texcoord) {
+    const VertexAttributes& told = attributes_of(scene, vertex);
+    for (const glm::vec2& texcoord : told.texcoord) {
       hash.add(Vec2(texcoord));
     }
-    if (vertex.color != glm::vec4(1.0F)) {
-      hash.add(Vec3(vertex.color));
-      hash.add(double{vertex.color.a});
+    if (told.color != glm::vec4(1.0F)) {
+      hash.add(Vec3(told.color));
+      hash.add(double{told.color.a});
     }
     if (vertex.normal != glm::vec3(0.0F)) {
       hash.add(Vec3(vertex.normal));
@@ -181,6 +182,18 @@ std::size_t find_named(const Scene& scene, const std::vector<Thing>& things, std
 }
 
 } // namespace
+
+const VertexAttributes& attributes_of(const Scene& scene, const Vertex& vertex) {
+  static const VertexAttributes nothing_told;
+  return vertex.attributes == none<AttributesId> ? nothing_told
+                                                 : scene.attributes[index(vertex.attributes)];
+}
+
+VertexAttributes& own_attributes(Scene& scene, Vertex& vertex) {
+  const VertexAttributes told = attributes_of(scene, vertex);
+  vertex.attributes = static_cast<AttributesId>(scene.attributes.size());
+  return scene.attributes.emplace_back(told);
+}
 
 std::array<Point3, 3> corners(const Scene& scene, TriangleId triangle) {
   const auto& vertices = scene.triangles[index(triangle)].vertices;

@@ -18,11 +18,18 @@
 
 namespace meninas {
 
-struct Vertex {
-  Point3 position{0.0};
+/// What is told at a vertex besides its place: copies of a mesh share it.
+struct VertexAttributes {
   std::array<glm::vec2, 2> texcoord{}; ///< TEXCOORD_0 and TEXCOORD_1
   glm::vec4 color{1.0F};               ///< COLOR_0: a factor of base colour and alpha, linear
-  glm::vec3 normal{0.0F};              ///< NORMAL, of unit length; zero: that of the face
+
+  bool operator==(const VertexAttributes&) const = default;
+};
+
+struct Vertex {
+  Point3 position{0.0};
+  glm::vec3 normal{0.0F};                       ///< NORMAL, of unit length; zero: that of the face
+  AttributesId attributes = none<AttributesId>; ///< in Scene::attributes; none: VertexAttributes{}
 };
 
 struct Triangle {
@@ -86,6 +93,7 @@ struct AreaLight {
 struct Scene {
   std::string file; ///< as the user named it, for messages
   std::vector<Vertex> vertices;
+  std::vector<VertexAttributes> attributes;
   std::vector<Triangle> triangles;
   std::vector<Material> materials;
   std::vector<Node> nodes;
@@ -115,6 +123,14 @@ struct Scene {
 inline const Point3& position(const Scene& scene, VertexId vertex) {
   return scene.vertices[index(vertex)].position;
 }
+
+const VertexAttributes& attributes_of(const Scene& scene, const Vertex& vertex);
+inline const VertexAttributes& attributes_of(const Scene& scene, VertexId vertex) {
+  return attributes_of(scene, scene.vertices[index(vertex)]);
+}
+
+/// Gives a vertex of the scene attributes that it shares with no other, equal to those that it had.
+VertexAttributes& own_attributes(Scene& scene, Vertex& vertex);
 
 inline const Material& material_of(const Scene& scene, TriangleId triangle) {
   return scene.materials[index(scene.triangles[index(triangle)].material)];

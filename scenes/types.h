@@ -25,6 +25,7 @@ using Rgb = glm::dvec3;       ///< linear RGB
 /// Ids are indices that cannot be mixed up:
 /// a patch cannot index elements. `none<Id>` names nothing.
 enum class VertexId : std::uint32_t {};
+enum class AttributesId : std::uint32_t {};
 enum class TriangleId : std::uint32_t {};
 enum class MaterialId : std::uint32_t {};
 enum class NodeId : std::uint32_t {};

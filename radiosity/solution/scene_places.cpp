@@ -14,9 +14,8 @@ glm::vec3 weights_at(const ScenePlace& at) {
   return {1.0 - at.barycentric.x - at.barycentric.y, at.barycentric.x, at.barycentric.y};
 }
 
-const Vertex& corner(const Scene& scene, const ScenePlace& at, int k) {
-  const Triangle& triangle = scene.triangles[index(at.triangle)];
-  return scene.vertices[index(triangle.vertices[std::size_t(k)])];
+const VertexAttributes& corner(const Scene& scene, const ScenePlace& at, int k) {
+  return attributes_of(scene, scene.triangles[index(at.triangle)].vertices[std::size_t(k)]);
 }
 
 } // namespace

@@ -69,10 +69,10 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
       add_coat(hash, mirror_coat(material));
     if (is_blended(material))
       for (const VertexId vertex : triangle.vertices)
-        hash.add(Rgb(double{scene.vertices[index(vertex)].color.a}));
+        hash.add(Rgb(double{attributes_of(scene, vertex).color.a}));
     if (is_glass(material) && is_textured(material))
       for (const VertexId vertex : triangle.vertices)
-        for (const glm::vec2& texcoord : scene.vertices[index(vertex)].texcoord)
+        for (const glm::vec2& texcoord : attributes_of(scene, vertex).texcoord)
           hash.add(Vec3(texcoord, 0.0));
   }
   for (const Material& material : scene.materials)

@@ -1,6 +1,7 @@
 #include "runs/points/point_report.h"
 
 #include "scenes/photometry.h"
+#include "runs/report/csv_field.h"
 #include "runs/report/stats.h"
 #include "scenes/errors.h"
 
@@ -17,16 +18,6 @@ using Json = nlohmann::ordered_json;
 
 Json rgb(const Rgb& c) { return {c.r, c.g, c.b}; }
 Json xyz(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-/// A name with commas or quotes stands in quotes, RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r;") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 Json point_json(const MeasuredSet& measured, std::size_t k) {
   const double efficacy = measured.luminous_efficacy;

@@ -1,6 +1,7 @@
 #include "runs/trade/trade_report.h"
 
 #include "image/display.h"
+#include "runs/report/csv_field.h"
 #include "runs/report/page.h"
 #include "runs/pages/trade_page.h"
 #include "runs/steering/setting_options.h"
@@ -127,16 +128,6 @@ Json json_of(const TradeResult& result) {
 
 std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-/// A field of a CSV, RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos)
-    return text;
-  std::string result = "\"";
-  for (const char c : text)
-    result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
 }
 
 } // namespace

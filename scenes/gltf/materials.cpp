@@ -194,7 +194,7 @@ static std::vector<std::uint8_t> with_clear_vertices(const Scene& scene) {
   std::vector<std::uint8_t> clear(scene.materials.size(), 0);
   for (const auto& triangle : scene.triangles)
     for (const auto vertex : triangle.vertices)
-      if (scene.vertices[index(vertex)].color.a < 1.0F)
+      if (attributes_of(scene, vertex).color.a < 1.0F)
         clear[index(triangle.material)] = 1;
   return clear;
 }

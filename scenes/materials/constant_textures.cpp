@@ -128,8 +128,8 @@ private:
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId vertex = scene_.triangles[index(triangle)].vertices[k];
       uv[k] = transformed_texcoord(
-          use, Vec2(scene_.vertices[index(vertex)]
-                        .texcoord[static_cast<std::size_t>(use.texcoord_set)]));
+          use,
+          Vec2(attributes_of(scene_, vertex).texcoord[static_cast<std::size_t>(use.texcoord_set)]));
     }
     return uv;
   }
@@ -192,7 +192,7 @@ private:
   bool has_clear_vertex(const Triangles& triangles) const {
     return std::ranges::any_of(triangles, [&](TriangleId t) {
       return std::ranges::any_of(scene_.triangles[index(t)].vertices, [&](VertexId v) {
-        return scene_.vertices[index(v)].color.a < 1.0F;
+        return attributes_of(scene_, v).color.a < 1.0F;
       });
     });
   }

@@ -20,7 +20,7 @@ Tangent own_tangent(const Scene& scene, TriangleId triangle, const TextureUse& u
   const auto uv = [&](std::size_t k) {
     const VertexId v = scene.triangles[index(triangle)].vertices[k];
     return transformed_texcoord(
-        use, Vec2(scene.vertices[index(v)].texcoord[static_cast<std::size_t>(use.texcoord_set)]));
+        use, Vec2(attributes_of(scene, v).texcoord[static_cast<std::size_t>(use.texcoord_set)]));
   };
   const Vec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
   const double det = d1.x * d2.y - d1.y * d2.x;

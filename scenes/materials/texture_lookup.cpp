@@ -31,8 +31,8 @@ TexelPlace texel_place(double coordinate, int size) {
   return {static_cast<std::int64_t>(below), centred - below};
 }
 
-const Vertex& corner(const Scene& scene, TriangleId triangle, std::size_t k) {
-  return scene.vertices[index(scene.triangles[index(triangle)].vertices[k])];
+const VertexAttributes& corner(const Scene& scene, TriangleId triangle, std::size_t k) {
+  return attributes_of(scene, scene.triangles[index(triangle)].vertices[k]);
 }
 
 Vec2 texcoord_at(const Scene& scene, TriangleId triangle, int set, Vec2 barycentric) {

@@ -52,16 +52,16 @@ constexpr std::size_t tangent_part = 3;
 /// What a vertex carries besides its place: texture coordinates, colour and tangent.
 using Carried = std::array<glm::dvec4, 4>;
 Carried carried_by(const Scene& scene, VertexId id) {
-  const Vertex& vertex = scene.vertices[index(id)];
+  const auto& [texcoord, color] = attributes_of(scene, id);
   const bool has_tangent = index(id) < scene.tangents.size();
-  return {glm::dvec4(vertex.texcoord[0], 0.0, 0.0), glm::dvec4(vertex.texcoord[1], 0.0, 0.0),
-          glm::dvec4(vertex.color),
+  return {glm::dvec4(texcoord[0], 0.0, 0.0), glm::dvec4(texcoord[1], 0.0, 0.0), glm::dvec4(color),
           has_tangent ? glm::dvec4(scene.tangents[index(id)]) : glm::dvec4(0.0)};
 }
 
-/// A vertex that is added, and its tangent.
+/// A vertex that is added.
 struct NewVertex {
-  Vertex vertex;
+  Point3 position{0.0};
+  VertexAttributes attributes;
   glm::vec4 tangent{0.0F};
 };
 
@@ -198,13 +198,13 @@ private:
   }
 
   NewVertex vertex_at(const Vec2& p) const {
-    NewVertex made{{}, glm::vec4(carried_[tangent_part](p))};
-    Vertex& vertex = made.vertex;
+    NewVertex made;
+    made.tangent = glm::vec4(carried_[tangent_part](p));
     const Point3 x = origin_ + p.x * frame_.tangent + p.y * frame_.bitangent;
-    vertex.position = x - signed_distance(surface_.plane, x) * surface_.plane.normal;
+    made.position = x - signed_distance(surface_.plane, x) * surface_.plane.normal;
     for (std::size_t k = 0; k < 2; ++k)
-      vertex.texcoord[k] = glm::vec2(glm::dvec2(carried_[k](p)));
-    vertex.color = glm::vec4(carried_[2](p));
+      made.attributes.texcoord[k] = glm::vec2(glm::dvec2(carried_[k](p)));
+    made.attributes.color = glm::vec4(carried_[2](p));
     return made;
   }
 
@@ -299,7 +299,9 @@ bool retriangulate_slivers(Scene& scene, const SurfaceModel& model) {
   if (!scene.tangents.empty())
     scene.tangents.resize(scene.vertices.size(), glm::vec4(0.0F));
   for (const NewVertex& made : added) {
-    scene.vertices.push_back(made.vertex);
+    scene.vertices.push_back({.position = made.position});
+    if (made.attributes != VertexAttributes{})
+      own_attributes(scene, scene.vertices.back()) = made.attributes;
     if (!scene.tangents.empty())
       scene.tangents.push_back(made.tangent);
   }

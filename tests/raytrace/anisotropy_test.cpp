@@ -93,7 +93,7 @@ Scene plate(const Material& material) {
   Scene scene;
   add_polygon(scene, "plate", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, material);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {v.position.x, v.position.z};
+    own_attributes(scene, v).texcoord[0] = {v.position.x, v.position.z};
   return scene;
 }
 

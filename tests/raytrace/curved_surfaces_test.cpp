@@ -212,7 +212,7 @@ Scene half_leaning_floor(const Vec3& lean, const Direction& sun) {
   scene.textures = {{.name = "map", .encoded = encode_png(image, 0.0)}};
   add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, floor);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {0.25 * v.position.x + 0.5, 0.25 * v.position.z + 0.5};
+    own_attributes(scene, v).texcoord[0] = {0.25 * v.position.x + 0.5, 0.25 * v.position.z + 0.5};
   scene.lights.push_back({.name = "sun",
                           .kind = PunctualKind::directional,
                           .intensity = Rgb(2.0),

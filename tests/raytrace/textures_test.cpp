@@ -40,7 +40,7 @@ void add_square(Scene& scene, const std::string& name, double height, bool up, M
   add_polygon(scene, name, corners, material);
   for (std::size_t v = first; v < scene.vertices.size(); ++v) {
     const Point3& x = scene.vertices[v].position;
-    scene.vertices[v].texcoord[0] = glm::vec2(x.x, x.z) / float(2.0 * half) + 0.5F;
+    own_attributes(scene, scene.vertices[v]).texcoord[0] = glm::vec2(x.x, x.z) / float(2.0 * half) + 0.5F;
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Textures, VertexColoursAreLinearInThePictureAndMeansInPassOne) {
   Scene scene;
   add_square(scene, "floor", 0.0, true, diffuse(0.8));
   for (Vertex& vertex : scene.vertices)
-    vertex.color.r = static_cast<float>(vertex.position.x) + 0.5F;
+    own_attributes(scene, vertex).color.r = static_cast<float>(vertex.position.x) + 0.5F;
   scene.background = Rgb(1.0);
   const auto settings = quick(0.5);
   const auto prepared = prepare_scene(scene, settings.pass_one);

@@ -19,7 +19,7 @@ Scene plate(const Material& material) {
   Scene scene;
   add_polygon(scene, "plate", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, material);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {v.position.x / 4.0 + 0.5, v.position.z / 4.0 + 0.5};
+    own_attributes(scene, v).texcoord[0] = {v.position.x / 4.0 + 0.5, v.position.z / 4.0 + 0.5};
   scene.background = Rgb(1.0);
   return scene;
 }

@@ -71,7 +71,7 @@ TEST(LightImages, AreSeenInWhatTexelsMakeAMirror) {
   wall.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
   add_polygon(scene, "wall", {{-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}}, wall);
   for (Vertex& vertex : scene.vertices)
-    vertex.texcoord[0] = glm::vec2((vertex.position.x + 2.0) / 4.0, 0.5);
+    own_attributes(scene, vertex).texcoord[0] = glm::vec2((vertex.position.x + 2.0) / 4.0, 0.5);
   Image image(2, 1);
   image.at(0, 0) = glm::vec3(0, 0, 1); // roughness 0, metal
   image.at(1, 0) = glm::vec3(0, 1, 1);

@@ -39,7 +39,7 @@ Texture white_and_black() {
 void lay_texture(Scene& scene) {
   const glm::vec2 corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   for (std::size_t k = 0; k < 4; ++k)
-    scene.vertices[scene.vertices.size() - 4 + k].texcoord[0] = corners[k];
+    own_attributes(scene, scene.vertices[scene.vertices.size() - 4 + k]).texcoord[0] = corners[k];
 }
 
 PunctualLight bulb(Point3 position) {
@@ -80,7 +80,7 @@ TEST(ReferenceMaterials, VertexColours) {
   add_floor(scene, diffuse(0.8));
   scene.background = Rgb(1.0);
   for (Vertex& vertex : scene.vertices)
-    vertex.color.g = static_cast<float>(vertex.position.x + 9.0) / 18.0F;
+    own_attributes(scene, vertex).color.g = static_cast<float>(vertex.position.x + 9.0) / 18.0F;
   expect_radiance(radiance_seen(scene, {4.5, 1, 0.1}, {4.5, 0, 0}, 32), Rgb(0.8, 0.6, 0.8));
 }
 

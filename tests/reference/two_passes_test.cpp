@@ -204,7 +204,7 @@ TEST(TwoPasses, AgreeWithPathsOnBrushedMetal) {
   for (std::size_t k = 0; k < 6; ++k)
     scene.materials[k].base_color = Rgb(k == 2 ? 0.8 : 0.0);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {v.position.x, v.position.z};
+    own_attributes(scene, v).texcoord[0] = {v.position.x, v.position.z};
   Material& metal = scene.materials[2];
   metal.metallic = 1.0;
   metal.roughness = 0.25;

@@ -59,8 +59,8 @@ TEST(ContentHash, SeesEveryPropertyLightDependsOn) {
   using Change = void (*)(Scene&);
   const std::vector<Change> changes{
       [](Scene& s) { s.vertices[3].position.y = std::nextafter(s.vertices[3].position.y, 9.0); },
-      [](Scene& s) { s.vertices[3].texcoord[0].x += 0.5F; },
-      [](Scene& s) { s.vertices[3].texcoord[1].y += 0.5F; },
+      [](Scene& s) { own_attributes(s, s.vertices[3]).texcoord[0].x += 0.5F; },
+      [](Scene& s) { own_attributes(s, s.vertices[3]).texcoord[1].y += 0.5F; },
       [](Scene& s) { s.vertices.push_back({}); },
       [](Scene& s) { std::swap(s.triangles[0], s.triangles[1]); },
       [](Scene& s) { std::swap(s.triangles[0].vertices[0], s.triangles[0].vertices[1]); },
@@ -94,8 +94,8 @@ TEST(ContentHash, SeesEveryPropertyLightDependsOn) {
       [](Scene& s) { s.textures[0].wrap_v = Wrap::clamp; },
       [](Scene& s) { s.textures[0].wrap_u = Wrap::mirrored; },
       [](Scene& s) { s.textures[0].magnified = TexelFilter::nearest; },
-      [](Scene& s) { s.vertices[3].color.g = 0.5F; },
-      [](Scene& s) { s.vertices[3].color.a = 0.5F; },
+      [](Scene& s) { own_attributes(s, s.vertices[3]).color.g = 0.5F; },
+      [](Scene& s) { own_attributes(s, s.vertices[3]).color.a = 0.5F; },
       [](Scene& s) { s.lights[0].kind = PunctualKind::spot; },
       [](Scene& s) { s.lights[0].intensity.r = 2.0; },
       [](Scene& s) { s.lights[0].position.x = 2.0; },

@@ -46,7 +46,7 @@ void lay_texture(Scene& scene) {
   const std::array<glm::vec2, 4> coordinates{glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}};
   const std::size_t first = scene.vertices.size() - 4;
   for (std::size_t k = 0; k < 4; ++k)
-    scene.vertices[first + k].texcoord = {coordinates[k], coordinates[k]};
+    own_attributes(scene, scene.vertices[first + k]).texcoord = {coordinates[k], coordinates[k]};
 }
 
 Scene glowing_room() {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace meninas::gltf {
 
@@ -21,6 +22,8 @@ struct Geometry {
   std::vector<float> half_steps;
   NodeId node = none<NodeId>; ///< whose parts are read
   GeometrySize size;          ///< of all parts
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
+      attributes_of = {}; ///< by mesh and primitive: where in the scene those of its vertices begin
 };
 
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
@@ -28,24 +31,22 @@ constexpr double largest_coordinate = 1e60;
 
 } // namespace
 
-static std::vector<std::array<glm::vec2, 2>>
-decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings) {
-  std::vector<std::array<glm::vec2, 2>> texcoords(count);
+static void decode_texcoords(const PrimitivePlace& at, std::vector<VertexAttributes>& attributes,
+                             Findings& findings) {
   for (std::size_t set = 0; set < 2; ++set) {
     const auto accessor = index_at(at.json["attributes"], fmt::format("TEXCOORD_{}", set));
     if (!accessor)
       continue;
     const auto decoded = decode_vectors(at.document, *accessor, 2);
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < attributes.size(); ++k) {
       const glm::vec2 uv(decoded.values[2 * k], decoded.values[2 * k + 1]);
       if (std::isfinite(uv.x) && std::isfinite(uv.y))
-        texcoords[k][set] = uv;
+        attributes[k].texcoord[set] = uv;
       else
         findings.about("texture coordinates that are not finite are read as 0 in nodes",
                        at.in.node);
     }
   }
-  return texcoords;
 }
 
 /// A material with textures on what has no coordinates for them.
@@ -60,24 +61,23 @@ static void check_texcoords(const PrimitivePlace& at, Findings& findings) {
 }
 
 /// COLOR_0, RGB or RGBA, in [0, 1]: linear factors of the base colour.
-static std::vector<glm::vec4> decode_colors(const PrimitivePlace& at, Findings& findings) {
+static void decode_colors(const PrimitivePlace& at, std::vector<VertexAttributes>& attributes,
+                          Findings& findings) {
   const auto accessor = index_at(at.json["attributes"], "COLOR_0");
   if (!accessor)
-    return {};
+    return;
   const bool with_alpha =
       text_or(element(at.document.root, "accessors", *accessor), "type", "") == "VEC4";
   const auto decoded = decode_vectors(at.document, *accessor, with_alpha ? 4 : 3);
-  std::vector<glm::vec4> colors(decoded.size(), glm::vec4(1.0F));
-  for (std::size_t k = 0; k < colors.size(); ++k) {
+  for (std::size_t k = 0; k < attributes.size(); ++k) {
     for (std::size_t c = 0; c < decoded.width; ++c) {
       const double value = decoded.values[decoded.width * k + c];
       if (!(value >= 0.0 && value <= 1.0))
         findings.about("vertex colours outside [0, 1] are clamped in nodes", at.in.node);
-      colors[k][static_cast<glm::length_t>(c)] =
+      attributes[k].color[static_cast<glm::length_t>(c)] =
           static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
     }
   }
-  return colors;
 }
 
 static void check_attribute_counts(const PrimitivePlace& at, std::size_t position) {
@@ -121,9 +121,10 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   if (part.tangent_map)
     part.tangents = usable_tangents(at, std::move(part.tangents), part.normals.values,
                                     *part.tangent_map, findings);
-  part.texcoords = decode_texcoords(at, part.positions.size(), findings);
+  part.attributes.resize(part.positions.size());
+  decode_texcoords(at, part.attributes, findings);
   check_texcoords(at, findings);
-  part.colors = decode_colors(at, findings);
+  decode_colors(at, part.attributes, findings);
   const auto corners = decode_corners(at, part.positions.size());
   if (mode == Mode::triangles && corners.size() % 3 != 0)
     findings.about("vertices after the last whole triangle are left out in nodes", at.in.node);
@@ -186,6 +187,22 @@ static void set_last_tangent(Scene& scene, const glm::dmat4& world, const Tangen
   scene.tangents.back() = glm::vec4(direction, sign);
 }
 
+/// Where in the scene the attributes of a part's vertices begin, none where nothing is told of them.
+/// Copies of a mesh share them; those whose vertices were divided otherwise have their own.
+static std::optional<std::size_t> shared_attributes(const PrimitivePlace& at, const Part& part, Geometry& into) {
+  if (std::ranges::all_of(part.attributes, [](const auto& told) { return told == VertexAttributes{}; }))
+    return std::nullopt;
+  auto& all = into.scene.attributes;
+  const auto [known, is_new] = into.attributes_of.try_emplace({at.in.mesh, at.number}, all.size());
+  const bool is_equal = !is_new && all.size() - known->second >= part.attributes.size() &&
+                        std::ranges::equal(part.attributes, std::span(all).subspan(known->second, part.attributes.size()));
+  if (!is_equal) {
+    known->second = all.size();
+    all.insert(all.end(), part.attributes.begin(), part.attributes.end());
+  }
+  return known->second;
+}
+
 static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
                      NodeId node, Geometry& into, Findings& findings) {
   Scene& scene = into.scene;
@@ -200,6 +217,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
                           at.in.node));
   }
 
+  const auto attributes = shared_attributes(at, part, into);
+
   // Vertices join the scene when the first triangle that stays needs them.
   std::vector<VertexId> ids(placed.size(), none<VertexId>);
   std::size_t kept = 0;
@@ -213,12 +232,12 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
       auto& id = ids[corners[c]];
       if (id == none<VertexId>) {
         id = static_cast<VertexId>(scene.vertices.size());
-        scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
+        scene.vertices.push_back({.position = placed[corners[c]]});
         scene.position_errors.push_back(
             static_cast<float>(position_error.of(largest_of(part.positions[corners[c]]))));
         into.half_steps.push_back(static_cast<float>(position_error.of_step(part.step)));
-        if (!part.colors.empty())
-          scene.vertices.back().color = part.colors[corners[c]];
+        if (attributes)
+          scene.vertices.back().attributes = static_cast<AttributesId>(*attributes + corners[c]);
         if (!part.normals.values.empty())
           scene.vertices.back().normal =
               glm::vec3(moved_normal(world, part.normals.values[corners[c]]));

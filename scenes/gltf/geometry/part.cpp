@@ -44,8 +44,7 @@ public:
 private:
   void divide(std::uint32_t vertex) {
     repeat(part_.positions, vertex);
-    repeat(part_.texcoords, vertex);
-    repeat(part_.colors, vertex);
+    repeat(part_.attributes, vertex);
     repeat(part_.normals.values, vertex);
     tangents_.emplace_back(0.0F);
     next_.push_back(no_corner);
@@ -74,9 +73,9 @@ bool settle_tangents(Part& part) {
     return false;
   std::vector<Vec2> texcoords;
   const auto set = static_cast<std::size_t>(part.tangent_map->texcoord_set);
-  texcoords.reserve(part.texcoords.size());
-  for (const auto& sets : part.texcoords)
-    texcoords.push_back(transformed_texcoord(*part.tangent_map, Vec2(sets[set])));
+  texcoords.reserve(part.attributes.size());
+  for (const VertexAttributes& told : part.attributes)
+    texcoords.push_back(transformed_texcoord(*part.tangent_map, Vec2(told.texcoord[set])));
   auto made = mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
   bool level = false;
   for (std::size_t t = 0; part.anisotropic && t < made.size(); ++t)

@@ -4,7 +4,7 @@
 #include "scenes/gltf/geometry/file_triangles.h"
 #include "scenes/gltf/geometry/normals.h"
 #include "scenes/gltf/geometry/tangents.h"
-#include "scenes/types.h"
+#include "scenes/scene.h"
 
 #include <array>
 #include <optional>
@@ -14,8 +14,7 @@ namespace meninas::gltf {
 
 struct Part {
   std::vector<Vec3> positions;
-  std::vector<std::array<glm::vec2, 2>> texcoords;
-  std::vector<glm::vec4> colors; ///< empty without COLOR_0
+  std::vector<VertexAttributes> attributes;
   Normals normals;
   std::optional<TextureUse> tangent_map;
   bool anisotropic = false;

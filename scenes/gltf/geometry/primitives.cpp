@@ -107,7 +107,7 @@ TangentNeeds tangent_needs(const PrimitivePlace& at) {
 
 } // namespace
 
-constexpr double bytes_per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
+constexpr double bytes_per_vertex = sizeof(Vertex) + sizeof(VertexAttributes) + 2 * sizeof(Point3) +
                                     sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
                                     4 * sizeof(double) + sizeof(VertexId);
 

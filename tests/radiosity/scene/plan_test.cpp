@@ -166,7 +166,7 @@ TEST(Plan, VertexColoursOfMirrorsAreWarnedAbout) {
   glass.transmission = 1.0;
   const auto warnings_of = [](const Material& material, glm::vec4 color) {
     Scene scene = room_with(material);
-    scene.vertices[0].color = color;
+    own_attributes(scene, scene.vertices[0]).color = color;
     return plan_of(scene).warnings;
   };
   const glm::vec4 red(1.0F, 0.0F, 0.0F, 1.0F);

@@ -176,7 +176,7 @@ TEST_F(ViewerSceneTest, TexturesAreThereWithTheirPlaces) {
   texture.wrap_u = Wrap::clamp;
   scene_.textures.push_back(texture);
   const auto corners = scene_.triangles.back().vertices;
-  scene_.vertices[index(corners[1])].texcoord[0] = {1.0F, 1.0F};
+  own_attributes(scene_, scene_.vertices[index(corners[1])]).texcoord[0] = {1.0F, 1.0F};
   write();
   const json colour = material("picture").at("pbrMetallicRoughness");
   EXPECT_EQ(colour.at("baseColorTexture").at("index"), 0);

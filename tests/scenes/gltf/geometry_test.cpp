@@ -116,7 +116,7 @@ TEST(GltfGeometry, ReadsInterleavedVertices) {
   square_primitive(file)["attributes"]["TEXCOORD_0"] = 2;
   const auto scene = load(file);
   EXPECT_EQ(positions(scene), square_corners);
-  EXPECT_EQ(scene.vertices[2].texcoord[0], glm::vec2(11.0f, 21.0f));
+  EXPECT_EQ(attributes_of(scene, scene.vertices[2]).texcoord[0], glm::vec2(11.0f, 21.0f));
 }
 
 TEST(GltfGeometry, ReadsSparseAccessors) {
@@ -150,9 +150,9 @@ TEST(GltfGeometry, ReadsNormalisedTextureCoordinates) {
   file.json["accessors"][3]["normalized"] = true;
   const auto scene = load(file);
   // 51 / 255 and 13107 / 65535 are 0.2, rounded to float.
-  EXPECT_EQ(scene.vertices[0].texcoord[0], glm::vec2(0.0f, 0.2f));
-  EXPECT_EQ(scene.vertices[1].texcoord[0], glm::vec2(1.0f, 1.0f));
-  EXPECT_EQ(scene.vertices[1].texcoord[1], glm::vec2(1.0f, 0.2f));
+  EXPECT_EQ(attributes_of(scene, scene.vertices[0]).texcoord[0], glm::vec2(0.0f, 0.2f));
+  EXPECT_EQ(attributes_of(scene, scene.vertices[1]).texcoord[0], glm::vec2(1.0f, 1.0f));
+  EXPECT_EQ(attributes_of(scene, scene.vertices[1]).texcoord[1], glm::vec2(1.0f, 0.2f));
 }
 
 TEST(GltfGeometry, ReadsQuantizedPositions) {
@@ -228,7 +228,7 @@ static glm::vec4 second_color(const std::vector<Number>& values, const std::stri
   square_primitive(file)["attributes"]["COLOR_0"] = accessor;
   const Scene scene = load(file);
   EXPECT_TRUE(scene.ignored.empty());
-  return scene.vertices.at(1).color;
+  return attributes_of(scene, scene.vertices.at(1)).color;
 }
 
 TEST(GltfGeometry, ReadsVertexColoursOfEveryType) {
@@ -247,7 +247,8 @@ TEST(GltfGeometry, ReadsVertexColoursOfEveryType) {
   expect_near(second_color(shorts, "VEC4"), seen);
   expect_near(second_color(floats, "VEC4"), seen);
   expect_near(second_color(opaque, "VEC3"), glm::vec4(glm::vec3(seen), 1.0F));
-  EXPECT_EQ(load(square()).vertices.at(1).color, glm::vec4(1.0F));
+  const Scene plain = load(square());
+  EXPECT_EQ(attributes_of(plain, plain.vertices.at(1)).color, glm::vec4(1.0F));
 }
 
 TEST(GltfGeometry, ClampsVertexColours) {
@@ -256,7 +257,7 @@ TEST(GltfGeometry, ClampsVertexColours) {
   square_primitive(file)["attributes"]["COLOR_0"] =
       file.add_accessor(std::vector<float>{1, 1, 1, 1.5F, -1, nan, 1, 1, 1, 1, 1, 1}, "VEC3");
   const Scene scene = load(file);
-  EXPECT_EQ(scene.vertices.at(1).color, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
+  EXPECT_EQ(attributes_of(scene, scene.vertices.at(1)).color, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
   EXPECT_TRUE(warns(scene, {"vertex colours outside [0, 1]", "'Quad'"}));
 }
 

@@ -314,7 +314,7 @@ Mesh given(const Scene& scene) {
   Mesh mesh;
   for (std::size_t v = 0; v < scene.vertices.size(); ++v) {
     const Vertex& vertex = scene.vertices[v];
-    mesh.add(vertex.position, Vec3(vertex.normal), Vec2(vertex.texcoord[0]));
+    mesh.add(vertex.position, Vec3(vertex.normal), Vec2(attributes_of(scene, vertex).texcoord[0]));
     for (int k = 0; k < 4; ++k)
       mesh.tangents.push_back(scene.tangents.at(v)[k]);
   }

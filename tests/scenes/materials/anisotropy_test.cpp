@@ -273,7 +273,7 @@ Scene textured(glm::vec4 left, glm::vec4 right, DecodedTextures& textures) {
   Scene scene;
   add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {v.position.x, v.position.y};
+    own_attributes(scene, v).texcoord[0] = {v.position.x, v.position.y};
   scene.textures = {{.name = "brush", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp}};
   textures = decode_textures(scene, [&](const Texture&, TextureContent) {
     return TexturePixels{2, 1, {left, right}};

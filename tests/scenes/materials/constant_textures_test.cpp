@@ -39,7 +39,7 @@ void add_square(Scene& scene, const std::string& name, const Material& material,
   add_polygon(scene, name, {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}}, material);
   for (auto v = first; v < scene.vertices.size(); ++v) {
     const auto& at = scene.vertices[v].position;
-    scene.vertices[v].texcoord[0] = low + glm::vec2(at.x - x, at.y) * (high - low);
+    own_attributes(scene, scene.vertices[v]).texcoord[0] = low + glm::vec2(at.x - x, at.y) * (high - low);
   }
   // Quads built by hand have a material each; the tests speak of one.
   for (Triangle& triangle : scene.triangles)
@@ -279,7 +279,7 @@ TEST(ConstantTextures, CutOutsWithoutHolesAreOpaque) {
   Scene holed = square(leaf);
   EXPECT_EQ(folded(holed, image).materials[0].alpha_mode, AlphaMode::mask);
   Scene faded = square(leaf);
-  faded.vertices[1].color.a = 0.5F;
+  own_attributes(faded, faded.vertices[1]).color.a = 0.5F;
   EXPECT_EQ(folded(faded, filled(4, 4, codes(9, 9, 9))).materials[0].alpha_mode, AlphaMode::mask);
 }
 

@@ -30,7 +30,7 @@ Scene square(const Material& material = mapped()) {
   Scene scene;
   add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
   for (Vertex& v : scene.vertices)
-    v.texcoord[0] = {v.position.x, 1.0 - v.position.y}; // v runs down the image
+    own_attributes(scene, v).texcoord[0] = {v.position.x, 1.0 - v.position.y}; // v runs down the image
   scene.textures = {{.name = "map", .encoded = {}}};
   return scene;
 }
@@ -60,9 +60,9 @@ TEST(NormalMap, ScaleIsThatOfTheSlopes) {
 TEST(NormalMap, FollowsTheTextureCoordinates) {
   Scene turned = square(), mirrored = square();
   for (Vertex& v : turned.vertices)
-    v.texcoord[0] = {v.position.y, v.position.x}; // right is up, down is right
+    own_attributes(turned, v).texcoord[0] = {v.position.y, v.position.x}; // right is up, down is right
   for (Vertex& v : mirrored.vertices)
-    v.texcoord[0].x = 1.0F - v.texcoord[0].x;
+    own_attributes(mirrored, v).texcoord[0].x = 1.0F - attributes_of(mirrored, v).texcoord[0].x;
   EXPECT_LT(glm::distance(normal_of(turned, Vec3(0.6, 0.0, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
   EXPECT_LT(glm::distance(normal_of(turned, Vec3(0.0, 0.6, 0.8)), Vec3(-0.6, 0.0, 0.8)), floats);
   EXPECT_LT(glm::distance(normal_of(mirrored, Vec3(0.6, 0.0, 0.8)), Vec3(-0.6, 0.0, 0.8)), floats);
@@ -74,9 +74,9 @@ TEST(NormalMap, FollowsTheTextureCoordinates) {
 TEST(NormalMap, KeepsItsSlopesOnAStretchedImage) {
   Scene stretched = square(), sheared = square();
   for (Vertex& v : stretched.vertices)
-    v.texcoord[0].y *= 10.0F;
+    own_attributes(stretched, v).texcoord[0].y *= 10.0F;
   for (Vertex& v : sheared.vertices)
-    v.texcoord[0].y += v.texcoord[0].x;
+    own_attributes(sheared, v).texcoord[0].y += attributes_of(sheared, v).texcoord[0].x;
   for (const Scene& scene : {stretched, sheared}) {
     const Direction right = normal_of(scene, Vec3(0.6, 0.0, 0.8)),
                     up = normal_of(scene, Vec3(0.0, 0.6, 0.8));
@@ -114,7 +114,7 @@ TEST(NormalMap, IsTheSameInLargeAndSmallScenesAndWherever) {
 TEST(NormalMap, SaysNothingWithoutCoordinatesOrDirection) {
   Scene without = square();
   for (Vertex& v : without.vertices)
-    v.texcoord[0] = {0.5F, 0.5F};
+    own_attributes(without, v).texcoord[0] = {0.5F, 0.5F};
   EXPECT_LT(glm::distance(normal_of(without, Vec3(0.6, 0.0, 0.8)), Vec3(0, 0, 1)), floats);
   EXPECT_EQ(normal_of(square(), Vec3(0.0)), Vec3(0, 0, 1));
 }
@@ -132,7 +132,7 @@ TEST(NormalMap, StandsOnTheCurve) {
   Scene globe;
   add_globe(globe, "globe", {}, mapped(), GivenNormals::smooth);
   for (Vertex& v : globe.vertices)
-    v.texcoord[0] = {std::atan2(v.position.z, v.position.x), std::acos(v.position.y)};
+    own_attributes(globe, v).texcoord[0] = {std::atan2(v.position.z, v.position.x), std::acos(v.position.y)};
   globe.textures = {{.name = "map", .encoded = {}}};
   for (std::uint32_t t = 0; t < globe.triangles.size(); t += 7) {
     const Direction flat = mapped_normal(globe, map_of(Vec3(0, 0, 1)), TriangleId{t}, Vec2(0.3));
@@ -160,7 +160,7 @@ TEST(FacetAxis, LiesInTheFrameOfTheImage) {
   // Turned by 90 degrees the image's right is the square's up, and its up the square's left.
   Scene turned = square(brushed());
   for (Vertex& v : turned.vertices)
-    v.texcoord[0] = {v.position.y, v.position.x};
+    own_attributes(turned, v).texcoord[0] = {v.position.y, v.position.x};
   EXPECT_LT(glm::distance(axis_on(turned, d), Vec3(-0.8, 0.6, 0.0)), floats);
   // From behind it is the same line.
   EXPECT_LT(glm::distance(axis_on(square(brushed()), d, {0, 0, -1}), Vec3(0.6, 0.8, 0.0)), floats);
@@ -182,7 +182,7 @@ TEST(FacetAxis, IsLaidFlatOnTheNormal) {
 TEST(FacetAxis, IsLevelWithoutTextureCoordinates) {
   Scene wall = square(brushed());
   for (Vertex& v : wall.vertices)
-    v.texcoord[0] = glm::vec2(0.0F);
+    own_attributes(wall, v).texcoord[0] = glm::vec2(0.0F);
   EXPECT_LT(glm::distance(axis_on(wall, {1.0, 0.0}), Vec3(1, 0, 0)), floats);
   EXPECT_EQ(level_tangent({0, 1, 0}), Vec3(1, 0, 0));
   EXPECT_EQ(level_tangent({1, 0, 0}), Vec3(0, 0, -1));

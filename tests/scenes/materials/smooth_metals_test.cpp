@@ -38,7 +38,7 @@ TEST(SmoothMetals, AreOfOneReflectance) {
   cut_out.alpha_mode = AlphaMode::mask;
   EXPECT_FALSE(specular_in_pass_one(plate_of(cut_out)));
   Scene colored = plate_of(metal(Rgb(0.9), 0.1));
-  colored.vertices[0].color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
+  own_attributes(colored, colored.vertices[0]).color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
   EXPECT_FALSE(specular_in_pass_one(colored));
 }
 

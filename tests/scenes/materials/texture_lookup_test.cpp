@@ -82,8 +82,8 @@ TEST(TextureLookup, FactorsTimesTexturesByTheirCoordinates) {
   material.alpha = 0.9;
   add_polygon(scene, "quad", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
   for (Vertex& vertex : scene.vertices) {
-    vertex.texcoord[0] = {0.1F, 0.1F};
-    vertex.texcoord[1] = glm::vec2(vertex.position);
+    own_attributes(scene, vertex).texcoord[0] = {0.1F, 0.1F};
+    own_attributes(scene, vertex).texcoord[1] = glm::vec2(vertex.position);
   }
   scene.textures = {{.name = "a", .encoded = {}}, {.name = "b", .encoded = {}}};
   scene.materials[0].base_color_texture = TextureUse{.texture = TextureId{0}, .texcoord_set = 1};
@@ -114,7 +114,7 @@ TEST(TextureLookup, FactorsTimesTexturesByTheirCoordinates) {
 
   // The triangle's corners are the first, third and fourth vertex.
   EXPECT_FALSE(has_vertex_colors(scene, TriangleId{1}));
-  scene.vertices[2].color = {0.5F, 1.0F, 0.0F, 0.0F};
+  own_attributes(scene, scene.vertices[2]).color = {0.5F, 1.0F, 0.0F, 0.0F};
   EXPECT_TRUE(has_vertex_colors(scene, TriangleId{1}));
   const MaterialPoint tinted = material_at(scene, textures, TriangleId{1}, {0.75, 0.0});
   EXPECT_NEAR(tinted.base_color.r, 0.5 * 0.625, 1e-7);

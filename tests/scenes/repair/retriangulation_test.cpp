@@ -246,7 +246,7 @@ TEST(Retriangulation, LeavesGoodSurfacesAndWhatItCannotKeep) {
   // Colours that bend from triangle to triangle are not those of other triangles.
   Sheet coloured = fan_about_middle(96, 2.5);
   for (std::size_t v = 0; v < coloured.scene.vertices.size(); v += 2)
-    coloured.scene.vertices[v].color = {0.5F, 0.2F, 0.1F, 1.0F};
+    own_attributes(coloured.scene, coloured.scene.vertices[v]).color = {0.5F, 0.2F, 0.1F, 1.0F};
   EXPECT_FALSE(retriangulate_slivers(coloured.scene, find_surfaces(coloured.scene)));
 
   // Half of the disc belongs to another node, whose name and light are its own.
@@ -272,20 +272,20 @@ TEST(Retriangulation, AffineTextureCoordinatesGoOn) {
   sheet.scene.materials[0].base_color_texture = TextureUse{TextureId{0}};
   const auto uv_of = [](const Point3& p) { return glm::vec2(0.3 + 0.2 * p.x, 0.7 * p.z - p.x); };
   for (Vertex& vertex : sheet.scene.vertices)
-    vertex.texcoord[0] = uv_of(vertex.position);
+    own_attributes(sheet.scene, vertex).texcoord[0] = uv_of(vertex.position);
   ASSERT_TRUE(retriangulate_slivers(sheet.scene, find_surfaces(sheet.scene)));
   ASSERT_GT(sheet.scene.vertices.size(), 97u);
   for (const Vertex& vertex : sheet.scene.vertices)
-    EXPECT_LT(glm::distance(vertex.texcoord[0], uv_of(vertex.position)), 1e-5F);
+    EXPECT_LT(glm::distance(attributes_of(sheet.scene, vertex).texcoord[0], uv_of(vertex.position)), 1e-5F);
 
   // A seam: the same place has two coordinates, which one function cannot give.
   Sheet seam = fan_about_middle(96, 2.5);
   seam.scene.textures.push_back({"image", {}});
   seam.scene.materials[0].base_color_texture = TextureUse{TextureId{0}};
   for (Vertex& vertex : seam.scene.vertices)
-    vertex.texcoord[0] = uv_of(vertex.position);
+    own_attributes(seam.scene, vertex).texcoord[0] = uv_of(vertex.position);
   const VertexId copy = seam.vertex(position(seam.scene, VertexId{1}));
-  seam.scene.vertices[index(copy)].texcoord[0] = {4.0F, 4.0F};
+  own_attributes(seam.scene, seam.scene.vertices[index(copy)]).texcoord[0] = {4.0F, 4.0F};
   seam.scene.triangles[95].vertices[2] = copy;
   EXPECT_FALSE(retriangulate_slivers(seam.scene, find_surfaces(seam.scene)));
 }

@@ -201,7 +201,8 @@ TEST(Draco, AttributesWithoutUseAreDroppedAndOthersStay) {
   extension_of(sequential)["attributes"].erase("COLOR_0");
   square_primitive(sequential)["attributes"]["COLOR_0"] =
       sequential.add_accessor(std::vector<float>(300, 0.25F), "VEC3");
-  EXPECT_EQ(load(sequential).vertices[0].color, glm::vec4(0.25F, 0.25F, 0.25F, 1.0F));
+  const Scene loaded = load(sequential);
+  EXPECT_EQ(attributes_of(loaded, loaded.vertices[0]).color, glm::vec4(0.25F, 0.25F, 0.25F, 1.0F));
 }
 
 // --- Errors

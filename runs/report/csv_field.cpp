@@ -1,0 +1,14 @@
+#include "runs/report/csv_field.h"
+
+namespace meninas {
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",;\"\n\r") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+} // namespace meninas
