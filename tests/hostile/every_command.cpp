@@ -80,8 +80,8 @@ std::string in_words(const RunSettings& settings) {
 /// The light beyond which nothing can be where the sky is all there is, else infinity.
 /// Glass and lobes are drawn by chance, with weights whose mean alone is bounded.
 double brightest(const Scene& scene) {
-  const bool sky_alone = scene.lights.empty() && !scene.background.map &&
-                         std::ranges::none_of(scene.materials, is_emitter);
+  const bool sky_alone = scene.lights.empty() && scene.area_lights.empty() &&
+                         !scene.background.map && std::ranges::none_of(scene.materials, is_emitter);
   const bool by_chance =
       std::ranges::any_of(scene.materials, [](const Material& m) { return is_glass(m); }) ||
       std::ranges::any_of(scene.materials, has_lobes);
