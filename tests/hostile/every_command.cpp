@@ -14,7 +14,10 @@
 #include "tests/hostile/findings.h"
 #include "tests/hostile/hostile_lights.h"
 #include "tests/hostile/hostile_shapes.h"
+
 #include "tests/hostile/solution_commands.h"
+
+#include <fmt/format.h>
 
 #include <array>
 
@@ -194,7 +197,10 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
     const PictureError error =
         estimate_error(solution.field, camera, chosen, solution.solver,
                        {rendering.image, rendering.samples}, {.gathered_pixels = 16, .pixels = 64});
-    require(!std::isnan(error.total) && error.total >= 0.0, "the error estimate is no number");
+    require(!std::isnan(error.total) && error.total >= 0.0,
+            fmt::format("the error estimate is no number: mesh {} form factors {} tail {} pixels {} solver {} of {}",
+                        error.mesh, error.form_factors, error.mirror_tail, error.pixels, error.solver,
+                        error.mean_radiance));
   }
   if (there.triangles.size() > effort.few_triangles)
     return;
