@@ -63,6 +63,8 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
   InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, seen, progress);
   add_up_by_vertex(found.field);
+  if (!settings.interpolation.mirrored)
+    found.field.mirrored = found.field.indirect_mirrored = {};
   take_received(light->mesh, solved.first.translucent, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};

@@ -70,7 +70,9 @@ RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera&
                                     const PassOneWatch& watch) {
   const SeenElements seen =
       solves_for_view(prepared, settings) ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};
-  return solve_for_view(prepared.light, settings.pass_one, seen, progress, watch);
+  PassOneSettings pass_one = settings.pass_one;
+  pass_one.interpolation.mirrored = settings.render.layers == WithLayers::yes;
+  return solve_for_view(prepared.light, pass_one, seen, progress, watch);
 }
 
 TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,

@@ -28,7 +28,7 @@ struct VertexLightOfLamp {
 struct VertexIrradiance {
   std::vector<glm::vec3> irradiance;
   std::vector<glm::vec3>
-      mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
+      mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`, and where nobody asks
 
   /// The part without what is computed from the source (direct_irradiance.h), for those who compute
   /// that themselves; empty where that is not known: from `average` with form factors `analytic`.

@@ -49,12 +49,17 @@ struct Probing {
   }
 };
 
+/// Of radiances beside a lamp squares are too large for floats.
+glm::dvec3 product_of(double weight, const glm::vec3& a, const glm::vec3& b) {
+  return weight * glm::dvec3(a) * glm::dvec3(b);
+}
+
 /// The mean over pixels and channels of a b.
 template <typename Product>
 double mean_of(std::size_t count, const Product& product) {
   double sum = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
-    const glm::dvec3 p(product(k));
+    const glm::dvec3 p = product(k);
     sum += p.r + p.g + p.b;
   }
   return count > 0 ? sum / (3.0 * static_cast<double>(count)) : 0.0;
@@ -65,7 +70,7 @@ template <typename Product>
 double known_mean(std::size_t count, const Product& product) {
   double sum = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
-    const glm::dvec3 p(product(k));
+    const glm::dvec3 p = product(k);
     const double mean = (p.r + p.g + p.b) / 3.0;
     sum += mean;
     squares += mean * mean;
@@ -146,7 +151,7 @@ double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
   };
   const Radiances c1 = change(3), c2 = change(4);
   return mean_of(pixels.size(),
-                 [&](std::size_t k) { return static_cast<float>(weight[k]) * c1[k] * c2[k]; });
+                 [&](std::size_t k) { return product_of(weight[k], c1[k], c2[k]); });
 }
 
 /// Light from emitters as it is, and as the picture has it; one ray a pixel each.
@@ -173,7 +178,7 @@ double error_of_means(Probing& probe, SourceSettings settings, const ProbeChoice
   const Radiances a = off(false, 3), b = off(true, 4);
   std::tie(error.direct_seconds, error.direct_rays) = probe.each_since(before, 2 * count * rays);
   return known_mean(count, [&](std::size_t k) {
-    return static_cast<float>(choice.weight[k]) * a[k] * b[k];
+    return product_of(choice.weight[k], a[k], b[k]);
   });
 }
 
@@ -187,7 +192,7 @@ double light_beyond(Probing& probe, RenderSettings capped, const TwoDraws& all, 
   capped.diffuse.gather.max_bounces = probe.settings.pass_one.form_factors.max_bounces;
   const Radiances a = probe(redrawn(capped, 3), pixels), b = probe(redrawn(capped, 4), pixels);
   return mean_of(pixels.size(), [&](std::size_t k) {
-    return static_cast<float>(choice.weight[k]) * (all.a[k] - a[k]) * (all.b[k] - b[k]);
+    return product_of(choice.weight[k], all.a[k] - a[k], all.b[k] - b[k]);
   });
 }
 
@@ -213,9 +218,9 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   const Radiances g1 = probe(redrawn(gathering, 3), first),
                   g2 = probe(redrawn(gathering, 4), first);
   std::tie(error.gather_seconds, error.gather_rays) = probe.each_since(before, 2 * first.size());
-  const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
+  const auto& weight = choice.weight;
 
-  const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
+  const auto off = [&](std::size_t k) { return product_of(weight[k], g1[k] - l1[k], g2[k] - l2[k]); };
   errors.field = mean_of(first.size(), off);
 
   // Without direct light, whose noise is the pixels' or the mesh's,
@@ -231,12 +236,12 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     if (within_pixels) {
       errors.source = error_of_means(probe, {source, shown}, choice, error);
       errors.field = errors.source + known_mean(first.size(), [&](std::size_t k) {
-                       return weight(k) * (g1[k] - s1[k]) * (g2[k] - s2[k]);
+                       return product_of(weight[k], g1[k] - s1[k], g2[k] - s2[k]);
                      });
     } else {
       std::tie(error.direct_seconds, error.direct_rays) = probe.each_since(unprobed, 2 * pixels.size());
       const auto product = [&](std::size_t k) {
-        return weight(k) * (s1[k] - l1[k]) * (s2[k] - l1[k]);
+        return product_of(weight[k], s1[k] - l1[k], s2[k] - l1[k]);
       };
       errors.source = mean_of(pixels.size(), product);
       errors.field += errors.source - mean_of(first.size(), product);
@@ -244,7 +249,7 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   }
   const auto apart = [&](std::size_t k) {
     const glm::vec3 change = (g1[k] - s1[k]) - (g2[k] - s2[k]);
-    return weight(k) * change * change;
+    return product_of(weight[k], change, change);
   };
   errors.vertices = 0.5 * mean_of(first.size(), apart);
   if (is_capped(probe.settings)) {
@@ -290,7 +295,7 @@ void probe_samples(Probing& probe, const SampledPicture& picture,
     const auto square = [&](std::size_t k) {
       const glm::ivec2 pixel = choice.pixels[k];
       const glm::vec3 change = other[k] - picture.image.at(pixel.x, pixel.y);
-      return static_cast<float>(choice.weight[k]) * change * change;
+      return product_of(choice.weight[k], change, change);
     };
     errors.pixels +=
         0.5 * double(group.size()) / double(all) * mean_of(choice.pixels.size(), square);

@@ -14,7 +14,10 @@
 #include "tests/hostile/findings.h"
 #include "tests/hostile/hostile_lights.h"
 #include "tests/hostile/hostile_shapes.h"
+
 #include "tests/hostile/solution_commands.h"
+
+#include <fmt/format.h>
 
 #include <array>
 
@@ -80,8 +83,8 @@ std::string in_words(const RunSettings& settings) {
 /// The light beyond which nothing can be where the sky is all there is, else infinity.
 /// Glass and lobes are drawn by chance, with weights whose mean alone is bounded.
 double brightest(const Scene& scene) {
-  const bool sky_alone = scene.lights.empty() && !scene.background.map &&
-                         std::ranges::none_of(scene.materials, is_emitter);
+  const bool sky_alone = scene.lights.empty() && scene.area_lights.empty() &&
+                         !scene.background.map && std::ranges::none_of(scene.materials, is_emitter);
   const bool by_chance =
       std::ranges::any_of(scene.materials, [](const Material& m) { return is_glass(m); }) ||
       std::ranges::any_of(scene.materials, has_lobes);
@@ -194,7 +197,10 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
     const PictureError error =
         estimate_error(solution.field, camera, chosen, solution.solver,
                        {rendering.image, rendering.samples}, {.gathered_pixels = 16, .pixels = 64});
-    require(!std::isnan(error.total) && error.total >= 0.0, "the error estimate is no number");
+    require(!std::isnan(error.total) && error.total >= 0.0,
+            fmt::format("the error estimate is no number: mesh {} form factors {} tail {} pixels {} solver {} of {}",
+                        error.mesh, error.form_factors, error.mirror_tail, error.pixels, error.solver,
+                        error.mean_radiance));
   }
   if (there.triangles.size() > effort.few_triangles)
     return;

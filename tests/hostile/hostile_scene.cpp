@@ -158,6 +158,33 @@ struct Maker {
       file.json["extensions"]["KHR_lights_punctual"]["lights"] = lights;
     if (happens(random, 0.2))
       add_luminaire(scale);
+    if (happens(random, 0.3))
+      add_area_lights();
+  }
+
+  /// EXT_lights_area: of any size and width, some in the plane of a wall, in a corner or behind the room.
+  void add_area_lights() {
+    Json lights = Json::array();
+    for (std::uint32_t k = 0, count = 1 + choose(random, 3); k < count; ++k) {
+      const double size = happens(random, 0.5) ? 0.5 : power_of_ten(random, -7.0, 2.0);
+      const double aspect = happens(random, 0.5) ? 1.0 : power_of_ten(random, -5.0, 2.0);
+      Json light{{"type", happens(random, 0.5) ? "rect" : "disk"},
+                 {"size", size},
+                 {"color", as_json(hostile_colour(random))},
+                 {"intensity", power_of_ten(random, -2.0, 3.0)}};
+      if (light["type"] == "rect")
+        light["rect"]["aspect"] = aspect;
+      else
+        light["extras"]["aspect"] = aspect;
+      lights.push_back(light);
+      Json node{{"translation", as_json(place())}, {"rotation", turned(random)}};
+      if (happens(random, 0.1))
+        node["scale"] = as_json(Vec3(1.0, -power_of_ten(random, -6.0, 1.0), 1.0));
+      node["extensions"]["EXT_lights_area"]["light"] = k;
+      name_lamp(node);
+      children.push_back(file.add_node(node));
+    }
+    file.json["extensions"]["EXT_lights_area"]["lights"] = lights;
   }
 
   void add_luminaire(double scale) {

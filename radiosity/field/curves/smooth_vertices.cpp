@@ -53,15 +53,15 @@ static void average_lamp(const ElementMesh& mesh, const ElementLight& elements,
 }
 
 void average_facets(const LightScene& light, const ElementLight& elements,
-                           const VertexElements& facets, const FormFactorSettings& form_factors,
-                           PointWorkspaces& workspaces, VertexIrradiance& field) {
+                    const VertexElements& facets, const FacetAverages& how,
+                    PointWorkspaces& workspaces, VertexIrradiance& field) {
   constexpr int few_rays = 16;
   const ElementMesh& mesh = light.mesh;
   std::array<std::vector<Rgb>, 2> parts{elements.from_source, elements.irradiance}, mirrored;
   for (std::size_t e = 0; e < element_count(mesh); ++e)
     parts[1][e] -= parts[0][e];
-  if (!light.mirrors.mirrors.empty() || light.mirrors.facets > 0) {
-    const PointGathering gathering(light, elements.reflected, form_factors,
+  if (how.mirrored && (!light.mirrors.mirrors.empty() || light.mirrors.facets > 0)) {
+    const PointGathering gathering(light, elements.reflected, how.form_factors,
                                    {.shadow_rays = 4, .penumbra_rays = 4},
                                    {.rays = few_rays, .cluster_shadow_rays = 1});
     mirrored = mirrored_parts(light, averaged_facets(mesh, facets), parts, gathering, workspaces);

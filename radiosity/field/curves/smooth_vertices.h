@@ -10,9 +10,14 @@
 
 namespace meninas {
 
+struct FacetAverages {
+  const FormFactorSettings& form_factors;
+  bool mirrored = true; ///< InterpolationSettings::mirrored; else those parts stay 0
+};
+
 /// Sets the values of all vertices that `facets` has elements for.
 void average_facets(const LightScene& light, const ElementLight& elements,
-                    const VertexElements& facets, const FormFactorSettings& form_factors,
+                    const VertexElements& facets, const FacetAverages& how,
                     PointWorkspaces& workspaces, VertexIrradiance& field);
 
 } // namespace meninas
