@@ -1,5 +1,4 @@
 # Every package the project uses, from Debian 12 by the ordinary find_package.
-# A library that the installed static libraries link must be named in meninas-config.cmake.in too.
 option(MENINAS_BUILD_TESTS "Build the tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 
 find_package(glm REQUIRED)

@@ -1,4 +1,4 @@
-# How everything here is compiled: C++20, warnings and sanitizers, and the two functions every folder calls.
+# How everything here is compiled: C++20, warnings and sanitizers, and the functions that folders call.
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -88,9 +88,10 @@ function(meninas_chapters target)
   endforeach()
 endfunction()
 
-# Nothing but the precompiled headers: meninas_headers, meninas_headers_quick.
+# Nothing but the precompiled headers: meninas_headers, meninas_headers_quick. A library needs a source, if an empty one.
 function(meninas_precompile name)
-  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+  file(CONFIGURE OUTPUT headers.cpp CONTENT "// no code: ProjectOptions.cmake\n")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
   target_link_libraries(${name} PRIVATE meninas_options glm::glm fmt::fmt TBB::tbb)
   target_precompile_headers(${name} PRIVATE ${MENINAS_COMMON_HEADERS})
   target_compile_options(${name} PRIVATE ${ARGN})
@@ -104,7 +105,7 @@ function(meninas_library folder)
   add_library(meninas::${folder} ALIAS meninas_${folder})
   target_include_directories(meninas_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_features(meninas_${folder} PUBLIC cxx_std_20)
-  target_link_libraries(meninas_${folder} PRIVATE meninas_options fmt::fmt TBB::tbb)
+  target_link_libraries(meninas_${folder} PRIVATE meninas_options fmt::fmt TBB::tbb) # the last two: for the precompiled headers
   target_precompile_headers(meninas_${folder} REUSE_FROM ${MENINAS_HEADERS})
   meninas_chapters(meninas_${folder})
 endfunction()

@@ -29,7 +29,9 @@ double expected_elements(const SceneSizes& scene, const PassOneChoice& choice) {
 SceneSizes sizes_of(const Scene& scene, std::optional<LampGrouping> lamps) {
   // Decoded, an image is four floats a pixel, and a third as much again in coarser copies.
   constexpr double texel = 16.0 * 4.0 / 3.0;
-  SceneSizes sizes{.vertices = scene.vertices.size(), .triangles = scene.triangles.size()};
+  SceneSizes sizes{.vertices = scene.vertices.size(),
+                   .attributes = scene.attributes.size(),
+                   .triangles = scene.triangles.size()};
   for (const Texture& texture : scene.textures) {
     const auto size = image_size(
         {reinterpret_cast<const unsigned char*>(texture.encoded.data()), texture.encoded.size()});
@@ -48,13 +50,15 @@ SceneSizes sizes_of(const Scene& scene, std::optional<LampGrouping> lamps) {
 }
 
 std::uint64_t scene_memory(const SceneSizes& scene, const PassOneChoice& choice) {
-  constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
+  constexpr double per_vertex = 2 * sizeof(Vertex), per_attributes = 2 * sizeof(VertexAttributes),
+                   per_triangle = 1500.0, per_element = 300.0;
   // Nodes divide elements at shadows.
   const double elements = expected_elements(scene, choice);
   const double at_shadows = mesh_cut(choice) == MeshCut::hierarchical
                                 ? double(max_at_shadows(static_cast<std::size_t>(elements)))
                                 : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
+               per_attributes * static_cast<double>(scene.attributes) +
                per_triangle * static_cast<double>(scene.triangles) +
                per_element * (elements + at_shadows)) +
          scene.texture_bytes;

@@ -15,7 +15,7 @@ namespace meninas {
 
 /// What is counted of a scene.
 struct SceneSizes {
-  std::size_t vertices = 0, triangles = 0;
+  std::size_t vertices = 0, attributes = 0, triangles = 0; ///< attributes: Scene::attributes
   std::size_t sides = 0;         ///< of triangles: two of what is double-sided
   std::size_t texture_bytes = 0; ///< encoded and decoded
   double area = 0.0;             ///< m^2, of all sides

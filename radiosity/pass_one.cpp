@@ -87,7 +87,8 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
   RadiositySolution solution;
   solution.radiosity = solution.irradiance = zeros;
   solution.exposed.assign(zeros.size(), 1.0F);
-  solution.field = {{at_vertices, at_vertices, at_vertices, at_vertices}, light};
+  const auto mirrored = settings.interpolation.mirrored ? at_vertices : std::vector<glm::vec3>{};
+  solution.field = {{at_vertices, mirrored, at_vertices, mirrored}, light};
   solution.solver.method = settings.solver.method;
   solution.solver.bands = 1;
   solution.solver.converged = true;

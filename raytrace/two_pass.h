@@ -39,6 +39,7 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
 bool solves_for_view(const PreparedScene& prepared, const TwoPassSettings& settings);
 
 /// Pass one for one picture: above 8,192 patches exact where that shows it (views/seen_elements.h).
+/// Its field tells apart what came by way of mirrors where the picture has layers, and nowhere else.
 RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
                                     const TwoPassSettings& settings, const Progress& progress = {},
                                     const PassOneWatch& watch = {});

@@ -4,8 +4,8 @@
 #include "runs/report/csv_field.h"
 #include "runs/resources.h"
 #include "scenes/gltf/tree.h"
-#include "scenes/rays/mixed_scales.h"
 #include "scenes/materials/smooth_surfaces.h"
+#include "scenes/rays/mixed_scales.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

@@ -183,12 +183,6 @@ std::size_t find_named(const Scene& scene, const std::vector<Thing>& things, std
 
 } // namespace
 
-const VertexAttributes& attributes_of(const Scene& scene, const Vertex& vertex) {
-  static const VertexAttributes nothing_told;
-  return vertex.attributes == none<AttributesId> ? nothing_told
-                                                 : scene.attributes[index(vertex.attributes)];
-}
-
 VertexAttributes& own_attributes(Scene& scene, Vertex& vertex) {
   const VertexAttributes told = attributes_of(scene, vertex);
   vertex.attributes = static_cast<AttributesId>(scene.attributes.size());

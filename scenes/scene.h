@@ -18,7 +18,7 @@
 
 namespace meninas {
 
-/// What is told at a vertex besides its place: copies of a mesh share it.
+/// Attributes of a vertex that do not depend on where its node puts it: copies of a mesh share them.
 struct VertexAttributes {
   std::array<glm::vec2, 2> texcoord{}; ///< TEXCOORD_0 and TEXCOORD_1
   glm::vec4 color{1.0F};               ///< COLOR_0: a factor of base colour and alpha, linear
@@ -124,7 +124,12 @@ inline const Point3& position(const Scene& scene, VertexId vertex) {
   return scene.vertices[index(vertex)].position;
 }
 
-const VertexAttributes& attributes_of(const Scene& scene, const Vertex& vertex);
+inline const VertexAttributes no_attributes{};
+
+inline const VertexAttributes& attributes_of(const Scene& scene, const Vertex& vertex) {
+  return vertex.attributes == none<AttributesId> ? no_attributes
+                                                 : scene.attributes[index(vertex.attributes)];
+}
 inline const VertexAttributes& attributes_of(const Scene& scene, VertexId vertex) {
   return attributes_of(scene, scene.vertices[index(vertex)]);
 }

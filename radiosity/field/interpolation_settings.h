@@ -14,7 +14,9 @@ struct InterpolationSettings {
       0.0; ///< X: elements in which indirect light bends by more are divided (gathered_field.h); 0: none
   double shadow_bend =
       0.0; ///< likewise of direct light, by nodes (refine_direct.h); 0: none
-  bool mirrored = true; ///< whether the field tells what came by way of mirrors, as layers and stored solutions want it
+  /// Whether the field tells what came by way of mirrors, as layers and stored solutions want it:
+  /// facets of curves send rays for that alone.
+  bool mirrored = true;
 };
 
 } // namespace meninas

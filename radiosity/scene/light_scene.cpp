@@ -64,9 +64,9 @@ void add_emitters(const SurfaceModel& surfaces, const ElementMesh& mesh, const M
 
 bool grey_mirrors(const Scene& scene) {
   const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
-  const bool colored = std::ranges::any_of(
-      scene.vertices,
-      [&](const Vertex& vertex) { return !is_grey(Rgb(attributes_of(scene, vertex).color)); });
+  const bool colored = std::ranges::any_of(scene.vertices, [&](const Vertex& vertex) {
+    return !is_grey(Rgb(attributes_of(scene, vertex).color));
+  });
   return std::ranges::all_of(scene.materials, [&](const Material& material) {
     if (material.iridescence > 0.0 && (has_mirror_coat(material) || is_glass(material)))
       return false;

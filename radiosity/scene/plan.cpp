@@ -354,9 +354,9 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
                           std::ranges::all_of(scene.area_lights, [](const AreaLight& light) {
                             return is_grey(light.radiance);
                           });
-  const bool grey_vertices = std::ranges::all_of(
-      scene.vertices,
-      [&](const Vertex& vertex) { return is_grey(Rgb(attributes_of(scene, vertex).color)); });
+  const bool grey_vertices = std::ranges::all_of(scene.vertices, [&](const Vertex& vertex) {
+    return is_grey(Rgb(attributes_of(scene, vertex).color));
+  });
   plan.bands = grey == materials.size() && grey_light && grey_vertices ? 1 : 3;
   plan.closed = is_closed(scene, 0.5 * surfaces.tolerance);
 

@@ -27,12 +27,19 @@ Image mean_around(const Image& image, int reach) {
   return along(along(image, true), false);
 }
 
-/// (a - c)(b - c), pixel by pixel.
-Image product_about(const Image& a, const Image& b, const Image& c) {
+/// (a - c)(b - c) / unit^2, pixel by pixel.
+Image product_about(const Image& a, const Image& b, const Image& c, float unit) {
   Image product(c.width, c.height);
   for (std::size_t p = 0; p < c.pixels.size(); ++p)
-    product.pixels[p] = (a.pixels[p] - c.pixels[p]) * (b.pixels[p] - c.pixels[p]);
+    product.pixels[p] = (a.pixels[p] - c.pixels[p]) / unit * ((b.pixels[p] - c.pixels[p]) / unit);
   return product;
+}
+
+/// The power of two below: squares in units of it are within floats, and no other bit changes.
+float unit_near(double radiance) {
+  return radiance > 0.0 ? static_cast<float>(
+                              std::exp2(std::clamp(std::floor(std::log2(radiance)), -120.0, 120.0)))
+                        : 1.0F;
 }
 
 } // namespace
@@ -40,6 +47,7 @@ Image product_about(const Image& a, const Image& b, const Image& c) {
 Image error_map(const IrradianceField& field, const Camera& camera,
                 const TwoPassSettings& settings, const Image& picture, const PictureError& error) {
   constexpr int reach_of_edges = 1, reach_of_noise = 1;
+  const float unit = unit_near(error.mean_radiance);
   RenderSettings shown = settings.render;
   shown.layers = WithLayers::no;
   const auto picture_of = [&](const RenderSettings& render_settings) {
@@ -49,7 +57,7 @@ Image error_map(const IrradianceField& field, const Camera& camera,
   RenderSettings again = shown;
   again.seed = hash(again.seed, 0xa9a17);
   const Image other = picture_of(again);
-  const Image noise = mean_around(product_about(other, other, picture), reach_of_noise);
+  const Image noise = mean_around(product_about(other, other, picture, unit), reach_of_noise);
 
   Image edges(picture.width, picture.height);
   if (shown.diffuse.term == DiffuseTerm::interpolated && !field.indirect.empty()) {
@@ -60,14 +68,16 @@ Image error_map(const IrradianceField& field, const Camera& camera,
     source.diffuse.direct = settings.pass_one.direct;
     const Image first = picture_of(source);
     source.diffuse.draw = 1;
-    edges = mean_around(product_about(first, picture_of(source), interpolated), reach_of_edges);
+    edges =
+        mean_around(product_about(first, picture_of(source), interpolated, unit), reach_of_edges);
   }
 
   // What is left of the field's error when that
   // of the edges is taken off is a share of the radiance.
   double edges2 = 0.0, radiance2 = 0.0;
   for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
-    const glm::dvec3 l(picture.pixels[p]), e(edges.pixels[p]);
+    const glm::dvec3 l(picture.pixels[p]),
+        e(glm::dvec3(edges.pixels[p]) * double(unit) * double(unit));
     edges2 += std::max(e.r + e.g + e.b, 0.0);
     radiance2 +=
         glm::dot(glm::min(l, 4.0 * error.mean_radiance), glm::min(l, 4.0 * error.mean_radiance));
@@ -78,10 +88,10 @@ Image error_map(const IrradianceField& field, const Camera& camera,
 
   Image map(picture.width, picture.height);
   for (std::size_t p = 0; p < map.pixels.size(); ++p) {
-    const glm::vec3& l = picture.pixels[p];
+    const glm::vec3 l = picture.pixels[p] / unit;
     const glm::vec3 square = glm::max(edges.pixels[p], 0.0F) + 0.5F * noise.pixels[p] +
                              static_cast<float>(share2) * l * l;
-    map.pixels[p] = glm::sqrt(square);
+    map.pixels[p] = unit * glm::sqrt(square);
   }
   return map;
 }

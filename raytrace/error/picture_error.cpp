@@ -49,7 +49,7 @@ struct Probing {
   }
 };
 
-/// Of radiances beside a lamp squares are too large for floats.
+/// Squares of radiances beside a lamp are too large for floats.
 glm::dvec3 product_of(double weight, const glm::vec3& a, const glm::vec3& b) {
   return weight * glm::dvec3(a) * glm::dvec3(b);
 }
@@ -150,8 +150,7 @@ double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
     return more;
   };
   const Radiances c1 = change(3), c2 = change(4);
-  return mean_of(pixels.size(),
-                 [&](std::size_t k) { return product_of(weight[k], c1[k], c2[k]); });
+  return mean_of(pixels.size(), [&](std::size_t k) { return product_of(weight[k], c1[k], c2[k]); });
 }
 
 /// Light from emitters as it is, and as the picture has it; one ray a pixel each.
@@ -177,9 +176,7 @@ double error_of_means(Probing& probe, SourceSettings settings, const ProbeChoice
   const Cost before = probe.so_far();
   const Radiances a = off(false, 3), b = off(true, 4);
   std::tie(error.direct_seconds, error.direct_rays) = probe.each_since(before, 2 * count * rays);
-  return known_mean(count, [&](std::size_t k) {
-    return product_of(choice.weight[k], a[k], b[k]);
-  });
+  return known_mean(count, [&](std::size_t k) { return product_of(choice.weight[k], a[k], b[k]); });
 }
 
 struct TwoDraws {
@@ -220,7 +217,9 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   std::tie(error.gather_seconds, error.gather_rays) = probe.each_since(before, 2 * first.size());
   const auto& weight = choice.weight;
 
-  const auto off = [&](std::size_t k) { return product_of(weight[k], g1[k] - l1[k], g2[k] - l2[k]); };
+  const auto off = [&](std::size_t k) {
+    return product_of(weight[k], g1[k] - l1[k], g2[k] - l2[k]);
+  };
   errors.field = mean_of(first.size(), off);
 
   // Without direct light, whose noise is the pixels' or the mesh's,

@@ -1,9 +1,9 @@
 #include "runs/points/point_report.h"
 
-#include "scenes/photometry.h"
 #include "runs/report/csv_field.h"
 #include "runs/report/stats.h"
 #include "scenes/errors.h"
+#include "scenes/photometry.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

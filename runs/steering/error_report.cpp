@@ -69,7 +69,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0 && !std::isfinite(error.total)) {
-    warn(events, "no error is estimated: squares of this much light are beyond floats");
+    warn(events, "no error is estimated: this much light is beyond floats");
   } else if (error.mean_radiance > 0.0) {
     figures.closing = describe_error(error);
     if (const auto option = suggest_option(error, settings))

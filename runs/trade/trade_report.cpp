@@ -1,11 +1,11 @@
 #include "runs/trade/trade_report.h"
 
 #include "image/display.h"
+#include "runs/pages/trade_page.h"
 #include "runs/report/csv_field.h"
 #include "runs/report/page.h"
-#include "runs/pages/trade_page.h"
-#include "runs/steering/setting_options.h"
 #include "runs/report/thumbnail.h"
+#include "runs/steering/setting_options.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

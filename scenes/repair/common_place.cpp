@@ -14,7 +14,7 @@ Vec3 way_into(const Point3& x, std::span<const Plane> planes) {
     squares += glm::outerProduct(plane.normal, plane.normal);
     moments -= signed_distance(plane, x) * plane.normal;
   }
-  // Of N^T N the values are the squares of N's singular values: along axes whose is too small, planes say nothing.
+  // The values of N^T N are the squares of N's singular values. Along axes where that is small, planes say nothing.
   const auto [values, axes] = principal_axes(squares);
   Vec3 way(0.0);
   for (std::size_t k = 0; k < 3; ++k)

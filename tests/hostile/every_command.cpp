@@ -1,10 +1,10 @@
 #include "tests/hostile/every_command.h"
 
 #include "radiosity/queries/gltf_node_factors.h"
+#include "raytrace/error/picture_error.h"
 #include "raytrace/views/debug_view.h"
 #include "raytrace/views/features.h"
 #include "raytrace/views/seen_elements.h"
-#include "raytrace/error/picture_error.h"
 #include "reference/reference_picture.h"
 #include "reference/scene_setup.h"
 #include "runs/steering/expected_cost.h"
@@ -14,7 +14,6 @@
 #include "tests/hostile/findings.h"
 #include "tests/hostile/hostile_lights.h"
 #include "tests/hostile/hostile_shapes.h"
-
 #include "tests/hostile/solution_commands.h"
 
 #include <fmt/format.h>
@@ -198,9 +197,10 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
         estimate_error(solution.field, camera, chosen, solution.solver,
                        {rendering.image, rendering.samples}, {.gathered_pixels = 16, .pixels = 64});
     require(!std::isnan(error.total) && error.total >= 0.0,
-            fmt::format("the error estimate is no number: mesh {} form factors {} tail {} pixels {} solver {} of {}",
-                        error.mesh, error.form_factors, error.mirror_tail, error.pixels, error.solver,
-                        error.mean_radiance));
+            fmt::format("the error estimate is no number: mesh {} form factors {} tail {} pixels "
+                        "{} solver {} of {}",
+                        error.mesh, error.form_factors, error.mirror_tail, error.pixels,
+                        error.solver, error.mean_radiance));
   }
   if (there.triangles.size() > effort.few_triangles)
     return;

@@ -31,7 +31,8 @@ Scene floor_with(const Texture& texture, const std::string& name = "floor") {
   paint.base_color_texture = TextureUse{.texture = TextureId{0}};
   add_polygon(scene, name, {{-0.5, 0, 0.5}, {0.5, 0, 0.5}, {0.5, 0, -0.5}, {-0.5, 0, -0.5}}, paint);
   for (Vertex& vertex : scene.vertices)
-    own_attributes(scene, vertex).texcoord[0] = glm::vec2(vertex.position.x, vertex.position.z) + 0.5F;
+    own_attributes(scene, vertex).texcoord[0] =
+        glm::vec2(vertex.position.x, vertex.position.z) + 0.5F;
   return scene;
 }
 

@@ -175,7 +175,8 @@ TEST(Panorama, TexturesAreAveragedOverPixels) {
   paint.base_color_texture = TextureUse{.texture = TextureId{0}};
   add_polygon(scene, "floor", {{-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}}, paint);
   for (Vertex& vertex : scene.vertices)
-    own_attributes(scene, vertex).texcoord[0] = glm::vec2(vertex.position.x, vertex.position.z) / 16.0F + 0.5F;
+    own_attributes(scene, vertex).texcoord[0] =
+        glm::vec2(vertex.position.x, vertex.position.z) / 16.0F + 0.5F;
   const Taken lit = lit_up(scene, coarse(4.0));
   for (const Projection projection : panoramas) {
     // A square is 12 cm; a pixel below the eye 60 cm and more.

@@ -40,7 +40,8 @@ void add_square(Scene& scene, const std::string& name, double height, bool up, M
   add_polygon(scene, name, corners, material);
   for (std::size_t v = first; v < scene.vertices.size(); ++v) {
     const Point3& x = scene.vertices[v].position;
-    own_attributes(scene, scene.vertices[v]).texcoord[0] = glm::vec2(x.x, x.z) / float(2.0 * half) + 0.5F;
+    own_attributes(scene, scene.vertices[v]).texcoord[0] =
+        glm::vec2(x.x, x.z) / float(2.0 * half) + 0.5F;
   }
 }
 

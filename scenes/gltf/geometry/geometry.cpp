@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace meninas::gltf {
 
@@ -22,8 +23,8 @@ struct Geometry {
   std::vector<float> half_steps;
   NodeId node = none<NodeId>; ///< whose parts are read
   GeometrySize size;          ///< of all parts
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-      attributes_of = {}; ///< by mesh and primitive: where in the scene those of its vertices begin
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> attributes_of =
+      {}; ///< by mesh and primitive: where in the scene those of its vertices begin
 };
 
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
@@ -187,24 +188,38 @@ static void set_last_tangent(Scene& scene, const glm::dmat4& world, const Tangen
   scene.tangents.back() = glm::vec4(direction, sign);
 }
 
-/// Where in the scene the attributes of a part's vertices begin, none where nothing is told of them.
+/// By vertex of a part, where in the scene its attributes are; empty where nothing is told of any.
 /// Copies of a mesh share them; those whose vertices were divided otherwise have their own.
-static std::optional<std::size_t> shared_attributes(const PrimitivePlace& at, const Part& part, Geometry& into) {
-  if (std::ranges::all_of(part.attributes, [](const auto& told) { return told == VertexAttributes{}; }))
-    return std::nullopt;
+static std::vector<AttributesId> shared_attributes(const PrimitivePlace& at, const Part& part,
+                                                   Geometry& into) {
+  const auto is_silent = [](const VertexAttributes& told) { return told == VertexAttributes{}; };
+  if (std::ranges::all_of(part.attributes, is_silent))
+    return {};
+  std::vector<AttributesId> ids(part.attributes.size(), none<AttributesId>);
+  std::vector<VertexAttributes> told; // of vertices that triangles have
+  for (const auto& corners : part.triangles)
+    for (const auto v : corners)
+      if (ids[v] == none<AttributesId>) {
+        ids[v] = static_cast<AttributesId>(told.size());
+        told.push_back(part.attributes[v]);
+      }
   auto& all = into.scene.attributes;
-  const auto [known, is_new] = into.attributes_of.try_emplace({at.in.mesh, at.number}, all.size());
-  const bool is_equal = !is_new && all.size() - known->second >= part.attributes.size() &&
-                        std::ranges::equal(part.attributes, std::span(all).subspan(known->second, part.attributes.size()));
-  if (!is_equal) {
-    known->second = all.size();
-    all.insert(all.end(), part.attributes.begin(), part.attributes.end());
+  std::size_t& first =
+      into.attributes_of.try_emplace({at.in.mesh, at.number}, all.size()).first->second;
+  const auto known = std::span(all).subspan(first);
+  if (known.size() < told.size() || !std::ranges::equal(told, known.first(told.size()))) {
+    first = all.size();
+    all.insert(all.end(), told.begin(), told.end());
   }
-  return known->second;
+  for (AttributesId& id : ids)
+    if (id != none<AttributesId>)
+      id = static_cast<AttributesId>(index(id) + first);
+  return ids;
 }
 
-static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
-                     NodeId node, Geometry& into, Findings& findings) {
+static void add_part(const PrimitivePlace& at, const Part& part,
+                     std::span<const AttributesId> attributes, const glm::dmat4& world,
+                     Geometry& into, Findings& findings) {
   Scene& scene = into.scene;
   const PositionError position_error(world);
   const auto error = position_error.of(part);
@@ -217,8 +232,6 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
                           at.in.node));
   }
 
-  const auto attributes = shared_attributes(at, part, into);
-
   // Vertices join the scene when the first triangle that stays needs them.
   std::vector<VertexId> ids(placed.size(), none<VertexId>);
   std::size_t kept = 0;
@@ -227,7 +240,7 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
       std::swap(corners[1], corners[2]);
     if (is_degenerate({placed[corners[0]], placed[corners[1]], placed[corners[2]]}, error))
       continue;
-    Triangle triangle{.material = part.material, .node = node};
+    Triangle triangle{.material = part.material, .node = into.node};
     for (std::size_t c = 0; c < 3; ++c) {
       auto& id = ids[corners[c]];
       if (id == none<VertexId>) {
@@ -236,8 +249,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
         scene.position_errors.push_back(
             static_cast<float>(position_error.of(largest_of(part.positions[corners[c]]))));
         into.half_steps.push_back(static_cast<float>(position_error.of_step(part.step)));
-        if (attributes)
-          scene.vertices.back().attributes = static_cast<AttributesId>(*attributes + corners[c]);
+        if (!attributes.empty())
+          scene.vertices.back().attributes = attributes[corners[c]];
         if (!part.normals.values.empty())
           scene.vertices.back().normal =
               glm::vec3(moved_normal(world, part.normals.values[corners[c]]));
@@ -284,7 +297,7 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
       if (!at.document.settings.state.at)
         findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
       complete(at, part, 1.0, into, findings);
-      return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
+      return add_part(at, part, shared_attributes(at, part, into), glm::dmat4(1.0), into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
@@ -292,8 +305,9 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
   complete(at, part, static_cast<double>(copies.size()), into, findings);
   if (copies.empty())
     findings.about("instanced nodes without an instance are left out", at.in.node);
+  const auto attributes = shared_attributes(at, part, into);
   for (const auto& world : copies)
-    add_part(at, part, world, into.node, into, findings);
+    add_part(at, part, attributes, world, into, findings);
 }
 
 std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,

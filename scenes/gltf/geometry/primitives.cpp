@@ -107,9 +107,10 @@ TangentNeeds tangent_needs(const PrimitivePlace& at) {
 
 } // namespace
 
-constexpr double bytes_per_vertex = sizeof(Vertex) + sizeof(VertexAttributes) + 2 * sizeof(Point3) +
-                                    sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
-                                    4 * sizeof(double) + sizeof(VertexId);
+// Of each copy of a mesh, and of what its copies share.
+constexpr double bytes_per_vertex =
+    sizeof(Vertex) + 2 * sizeof(Point3) + 4 * sizeof(double) + sizeof(VertexId);
+constexpr double shared_bytes = 2 * sizeof(VertexAttributes) + 2 * sizeof(AttributesId);
 
 static GeometrySize size_of(const PrimitivePlace& at, double copies, bool is_skinned) {
   constexpr double per_corner = sizeof(std::uint32_t);
@@ -123,7 +124,8 @@ static GeometrySize size_of(const PrimitivePlace& at, double copies, bool is_ski
   const auto corners = indices ? accessor_count(at.document, *indices) : count;
   const auto triangles = static_cast<double>(triangles_in(mode, corners));
   const TangentNeeds tangents = tangent_needs(at);
-  return {(copies * (bytes_per_vertex + tangents.per_vertex) + deformation_bytes(at, is_skinned)) *
+  return {(copies * (bytes_per_vertex + tangents.per_vertex) + shared_bytes +
+           deformation_bytes(at, is_skinned)) *
                   static_cast<double>(count) +
               per_corner * static_cast<double>(corners) +
               (copies * per_triangle + tangents.per_triangle) * triangles,
@@ -173,7 +175,8 @@ void check_size(const Document& document, const GeometrySize& size) {
 }
 
 GeometrySize size_of_vertices(double copies, double vertices) {
-  return {copies * (bytes_per_vertex + sizeof(glm::vec4)) * vertices, copies * vertices};
+  return {(copies * (bytes_per_vertex + sizeof(glm::vec4)) + shared_bytes) * vertices,
+          copies * vertices};
 }
 
 } // namespace meninas::gltf

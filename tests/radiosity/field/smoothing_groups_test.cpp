@@ -130,14 +130,19 @@ TEST(Facets, KnowWhatComesByWayOfMirrors) {
 // Where nobody asks, rays that only tell the two parts apart are not sent, and all else stays to the bit.
 TEST(Facets, AskNothingOfMirrorsForAPictureWithoutLayers) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
-  const RadiositySolution asked = solve_pass_one(l->light, {});
-  const RadiositySolution plain = solve_pass_one(l->light, {.interpolation = {.mirrored = false}});
-  EXPECT_EQ(plain.field.irradiance, asked.field.irradiance);
-  EXPECT_EQ(plain.field.indirect, asked.field.indirect);
-  EXPECT_FALSE(asked.field.mirrored.empty());
-  EXPECT_TRUE(plain.field.mirrored.empty());
-  EXPECT_TRUE(plain.field.indirect_mirrored.empty());
-  EXPECT_LT(plain.form_factor_rays, asked.form_factor_rays);
+  for (const MeshCut cut : {MeshCut::uniform, MeshCut::hierarchical}) {
+    PassOneSettings settings;
+    settings.cut = cut;
+    const RadiositySolution asked = solve_pass_one(l->light, settings);
+    settings.interpolation.mirrored = false;
+    const RadiositySolution plain = solve_pass_one(l->light, settings);
+    EXPECT_EQ(plain.field.irradiance, asked.field.irradiance);
+    EXPECT_EQ(plain.field.indirect, asked.field.indirect);
+    EXPECT_FALSE(asked.field.mirrored.empty());
+    EXPECT_TRUE(plain.field.mirrored.empty());
+    EXPECT_TRUE(plain.field.indirect_mirrored.empty());
+    EXPECT_LT(plain.form_factor_rays, asked.form_factor_rays);
+  }
 }
 
 } // namespace

@@ -96,20 +96,25 @@ TEST(GltfExporters, InstancesAreCopies) {
 TEST(GltfExporters, CopiesShareWhatTheFileTellsOnce) {
   auto file = instanced_square();
   EXPECT_TRUE(load(file).attributes.empty()) << "nothing is told of its vertices";
-  square_primitive(file)["attributes"]["TEXCOORD_0"] = file.add_accessor<float>({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
+  square_primitive(file)["attributes"]["TEXCOORD_0"] =
+      file.add_accessor<float>({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
   file.add_node({{"name", "Another"}, {"mesh", 0}, {"translation", {0, 0, 50}}});
   const Scene scene = load(file);
   ASSERT_EQ(scene.vertices.size(), 12U);
   EXPECT_EQ(scene.attributes.size(), 4U);
   for (std::size_t v = 0; v < 12; ++v)
-    EXPECT_EQ(attributes_of(scene, scene.vertices[v]).texcoord[0], attributes_of(scene, scene.vertices[v % 4]).texcoord[0]) << v;
-  EXPECT_NE(attributes_of(scene, scene.vertices[0]).texcoord[0], attributes_of(scene, scene.vertices[2]).texcoord[0]);
+    EXPECT_EQ(attributes_of(scene, scene.vertices[v]).texcoord[0],
+              attributes_of(scene, scene.vertices[v % 4]).texcoord[0])
+        << v;
+  EXPECT_NE(attributes_of(scene, scene.vertices[0]).texcoord[0],
+            attributes_of(scene, scene.vertices[2]).texcoord[0]);
 
   // One that is changed afterwards changes alone.
   Scene changed = scene;
   own_attributes(changed, changed.vertices[5]).color = glm::vec4(0.5F);
   EXPECT_EQ(attributes_of(changed, changed.vertices[1]).color, glm::vec4(1.0F));
-  EXPECT_EQ(attributes_of(changed, changed.vertices[5]).texcoord[0], attributes_of(changed, changed.vertices[1]).texcoord[0]);
+  EXPECT_EQ(attributes_of(changed, changed.vertices[5]).texcoord[0],
+            attributes_of(changed, changed.vertices[1]).texcoord[0]);
   EXPECT_EQ(content_hash(load(file)), content_hash(scene));
   EXPECT_NE(content_hash(changed), content_hash(scene));
 }

@@ -16,7 +16,8 @@ static bool all_finite(const Scene& scene) {
   };
   bool good = std::isfinite(scene.position_error) && !scene.triangles.empty();
   for (const auto& vertex : scene.vertices)
-    good = good && finite(vertex.position) && std::isfinite(attributes_of(scene, vertex).texcoord[0].x);
+    good = good && finite(vertex.position) &&
+           std::isfinite(attributes_of(scene, vertex).texcoord[0].x);
   for (const auto& triangle : scene.triangles) {
     good = good && index(triangle.material) < scene.materials.size() &&
            index(triangle.node) < scene.nodes.size();

@@ -39,7 +39,8 @@ void add_square(Scene& scene, const std::string& name, const Material& material,
   add_polygon(scene, name, {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}}, material);
   for (auto v = first; v < scene.vertices.size(); ++v) {
     const auto& at = scene.vertices[v].position;
-    own_attributes(scene, scene.vertices[v]).texcoord[0] = low + glm::vec2(at.x - x, at.y) * (high - low);
+    own_attributes(scene, scene.vertices[v]).texcoord[0] =
+        low + glm::vec2(at.x - x, at.y) * (high - low);
   }
   // Quads built by hand have a material each; the tests speak of one.
   for (Triangle& triangle : scene.triangles)

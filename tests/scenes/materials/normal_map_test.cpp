@@ -30,7 +30,8 @@ Scene square(const Material& material = mapped()) {
   Scene scene;
   add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
   for (Vertex& v : scene.vertices)
-    own_attributes(scene, v).texcoord[0] = {v.position.x, 1.0 - v.position.y}; // v runs down the image
+    own_attributes(scene, v).texcoord[0] = {v.position.x,
+                                            1.0 - v.position.y}; // v runs down the image
   scene.textures = {{.name = "map", .encoded = {}}};
   return scene;
 }
@@ -60,7 +61,8 @@ TEST(NormalMap, ScaleIsThatOfTheSlopes) {
 TEST(NormalMap, FollowsTheTextureCoordinates) {
   Scene turned = square(), mirrored = square();
   for (Vertex& v : turned.vertices)
-    own_attributes(turned, v).texcoord[0] = {v.position.y, v.position.x}; // right is up, down is right
+    own_attributes(turned, v).texcoord[0] = {v.position.y,
+                                             v.position.x}; // right is up, down is right
   for (Vertex& v : mirrored.vertices)
     own_attributes(mirrored, v).texcoord[0].x = 1.0F - attributes_of(mirrored, v).texcoord[0].x;
   EXPECT_LT(glm::distance(normal_of(turned, Vec3(0.6, 0.0, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
@@ -132,7 +134,8 @@ TEST(NormalMap, StandsOnTheCurve) {
   Scene globe;
   add_globe(globe, "globe", {}, mapped(), GivenNormals::smooth);
   for (Vertex& v : globe.vertices)
-    own_attributes(globe, v).texcoord[0] = {std::atan2(v.position.z, v.position.x), std::acos(v.position.y)};
+    own_attributes(globe, v).texcoord[0] = {std::atan2(v.position.z, v.position.x),
+                                            std::acos(v.position.y)};
   globe.textures = {{.name = "map", .encoded = {}}};
   for (std::uint32_t t = 0; t < globe.triangles.size(); t += 7) {
     const Direction flat = mapped_normal(globe, map_of(Vec3(0, 0, 1)), TriangleId{t}, Vec2(0.3));

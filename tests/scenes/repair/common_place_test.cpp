@@ -37,6 +37,20 @@ TEST(CommonPlace, OfNearlyOnePlaneIsNearby) {
   EXPECT_LT(glm::length(way_into({0, 0, 0}, planes)), 0.1);
 }
 
+TEST(CommonPlace, OfPlanesAThirdOfARadianApartIsOnTheirLine) {
+  // The smaller singular value is sin(a / 2) of the two, the larger cos(a / 2): 0.15 of it here, above 0.05.
+  const double angle = 0.3;
+  const std::array planes{plane({0, 0, 1}, 0.0), plane({std::sin(angle), 0, std::cos(angle)}, 0.1)};
+  expect_near(way_into({0, 0, 0}, planes), {0.1 / std::sin(angle), 0, 0});
+}
+
+TEST(CommonPlace, OfPlanesAnEightiethOfATurnApartIsBetweenThem) {
+  // 0.04 of the larger singular value: one plane, whose place is the mean of the two.
+  const double angle = 0.08;
+  const std::array planes{plane({0, 0, 1}, 0.0), plane({std::sin(angle), 0, std::cos(angle)}, 0.1)};
+  EXPECT_LT(glm::length(way_into({0, 0, 0}, planes)), 0.1);
+}
+
 TEST(CommonPlace, OfWhatOverflowsIsNowhere) {
   const std::array planes{plane({0, 0, 1}, 0.0)};
   const Vec3 way = way_into({0, 0, 1e200}, planes);

@@ -276,7 +276,8 @@ TEST(Retriangulation, AffineTextureCoordinatesGoOn) {
   ASSERT_TRUE(retriangulate_slivers(sheet.scene, find_surfaces(sheet.scene)));
   ASSERT_GT(sheet.scene.vertices.size(), 97u);
   for (const Vertex& vertex : sheet.scene.vertices)
-    EXPECT_LT(glm::distance(attributes_of(sheet.scene, vertex).texcoord[0], uv_of(vertex.position)), 1e-5F);
+    EXPECT_LT(glm::distance(attributes_of(sheet.scene, vertex).texcoord[0], uv_of(vertex.position)),
+              1e-5F);
 
   // A seam: the same place has two coordinates, which one function cannot give.
   Sheet seam = fan_about_middle(96, 2.5);

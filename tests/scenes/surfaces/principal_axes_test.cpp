@@ -1,7 +1,6 @@
 // The axes of a symmetric matrix and the plane nearest to points, against closed forms.
-#include "scenes/surfaces/principal_axes.h"
-
 #include "scenes/sampling.h"
+#include "scenes/surfaces/principal_axes.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +19,8 @@ TEST(PrincipalAxes, AddUpToTheMatrix) {
   for (std::size_t k = 0; k < 3; ++k)
     sum += values[k] * glm::outerProduct(axes[k], axes[k]);
   for (int column = 0; column < 3; ++column)
-    EXPECT_NEAR(glm::distance(sum[column], matrix[column]), 0.0, 1e-14); // rounding of numbers below 5
+    EXPECT_NEAR(glm::distance(sum[column], matrix[column]), 0.0,
+                1e-14); // rounding of numbers below 5
 }
 
 /// Points of a plane far away, with heights that repeat at right angles: they leave the plane as it is.

@@ -108,8 +108,9 @@ std::vector<Corners> triangle_corners(const Scene& scene) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto& vertex = scene.vertices[index(triangle.vertices[c])];
       const auto& [texcoord, color] = attributes_of(scene, vertex);
-      corners[c] = {vertex.position.x, vertex.position.y, vertex.position.z, texcoord[0].x, texcoord[0].y,
-                    color.r,           color.g,           color.b,           color.a};
+      corners[c] = {vertex.position.x, vertex.position.y, vertex.position.z,
+                    texcoord[0].x,     texcoord[0].y,     color.r,
+                    color.g,           color.b,           color.a};
     }
     std::ranges::rotate(corners, std::ranges::min_element(corners));
     triangles.push_back(corners);

@@ -1,1 +1,0 @@
-// Nothing: meninas_headers has precompiled headers alone (ProjectOptions.cmake), and a library needs a source.
