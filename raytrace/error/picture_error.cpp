@@ -216,11 +216,9 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
                   g2 = probe(redrawn(gathering, 4), first);
   std::tie(error.gather_seconds, error.gather_rays) = probe.each_since(before, 2 * first.size());
   const auto& weight = choice.weight;
-
-  const auto off = [&](std::size_t k) {
+  errors.field = mean_of(first.size(), [&](std::size_t k) {
     return product_of(weight[k], g1[k] - l1[k], g2[k] - l2[k]);
-  };
-  errors.field = mean_of(first.size(), off);
+  });
 
   // Without direct light, whose noise is the pixels' or the mesh's,
   // draw 3 and 4 are those of the gathering alone.
