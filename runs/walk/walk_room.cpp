@@ -64,7 +64,7 @@ public:
 
 private:
   /// The bytes of what makes a corner of a side differ from others at its vertex.
-  using CornerKey = std::array<std::uint32_t, 13>;
+  using CornerKey = std::array<std::uint32_t, 14>;
   struct HashOfKey {
     std::size_t operator()(const CornerKey& key) const {
       return hash_of_bytes(std::as_bytes(std::span(key)));
@@ -142,8 +142,9 @@ private:
 
   glm::vec3 from_middle(const Point3& x) const { return glm::vec3(x - room_.middle); }
 
-  /// The vertex with these values, once. `of` tells apart what is at different places.
-  std::uint32_t vertex_index(std::uint32_t of, const WalkVertex& vertex,
+  /// The vertex with these values, once. `of` tells apart what is at different places; what a vertex
+  /// mirrors is its own.
+  std::uint32_t vertex_index(std::uint32_t of, MirrorId mirror, const WalkVertex& vertex,
                              const LightOrigin& origin = {}) {
     CornerKey key{of, vertex.look};
     const auto put = [&](std::size_t at, float x) { std::memcpy(&key[at], &x, sizeof x); };
@@ -156,6 +157,7 @@ private:
           static_cast<std::int32_t>(std::lround(1e3F * vertex.normal[static_cast<int>(k)])));
     for (std::size_t k = 0; k < 4; ++k)
       put(9 + k, vertex.colour[static_cast<int>(k)]);
+    key[13] = static_cast<std::uint32_t>(mirror);
     const auto [place, is_new] =
         known_.emplace(key, static_cast<std::uint32_t>(room_.vertices.size()));
     if (is_new) {
@@ -172,9 +174,10 @@ private:
     vertex.look = look_of_side_[index(origin.side)];
     vertex.position = from_middle(origin.place);
     vertex.irradiance = irradiance_from(light_, field_, origin);
-    dress(vertex, {side.patch, side.facing},
+    const Face face{side.patch, side.facing};
+    dress(vertex, face,
           place_on(light_.scene, light_.surfaces.patches[index(side.patch)], origin.place));
-    return vertex_index(of, vertex, origin);
+    return vertex_index(of, mirror_of(face), vertex, origin);
   }
 
   /// The corner of an element's triangle: a vertex of the mesh, or a point of a region's outline.
@@ -289,7 +292,7 @@ private:
         vertex.look = look;
         vertex.position = from_middle(p[k]);
         dress(vertex, face, {id, Vec2(k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0)});
-        triangle[k] = vertex_index(index(ids[k]), vertex);
+        triangle[k] = vertex_index(index(ids[k]), piece.key.mirror, vertex);
       }
       if (face.facing == Facing::back)
         std::swap(triangle[1], triangle[2]);

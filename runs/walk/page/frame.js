@@ -1,119 +1,149 @@
-// One frame: the tree of visible worlds drawn by stencil (Kilgard 1999), one set of draws to a world.
+// One frame: the tree of visible worlds, the deepest first, one draw to a world.
 //
-// The window of a mirror counts the stencil up where its parent shows it; there depth and colour are
-// cleared, and the room is drawn as the mirror's eye sees it, in front of the mirror alone and with
-// fronts the other way round. Then the window takes the depth of the mirror again, multiplies
-// what is there by R(cos), adds what the surface shows itself, and counts the stencil down.
-// A pane lets what is behind it show as well, so what it mirrors is drawn aside, in a picture of its
-// own, and then added: L = T L_behind + R L_mirrored.
+// The worlds by way of so many mirrors are drawn onto one picture, each where its windows are on the screen; then those by one
+// mirror less, whose mirrors show that picture at their own pixels: L = L_own + R(cos) L_mirrored. So the surface of a mirror
+// does by itself all that its look has, and hides and is hidden as any other.
+// A draw begins with the world's windows, as backs of triangles: these alone mark the stencil, where fronts are drawn
+// (stencil operations for the two faces, Kilgard 1999). What some windows hide of others is drawn before.
+// What a pane mirrors is drawn aside, since what is behind it shows as well: L = T L_behind + R L_mirrored; what a rough
+// surface blurs too, since it takes from beside its window.
 "use strict";
 
 function makePainter(gl, data, room, textures) {
-  const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), skyProgram = makeProgram(gl, wholeVertex, skyFragment);
-  const screenProgram = makeProgram(gl, wholeVertex, screenFragment);
-  const { array, light, buffers } = makeRoomArrays(gl, data, room.tables, room.lamps.irradiance()), looks = gl.createTexture();
+  const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), screenProgram = makeProgram(gl, wholeVertex, screenFragment);
+  const { array, light, stream, buffers } = makeRoomArrays(gl, room, room.lamps.irradiance()), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
-  const { probes } = room; // its own, when another room is shown
-  const black = gl.createTexture(), blackCube = gl.createTexture();
-  for (const [kind, texture] of [[gl.TEXTURE_2D, black], [gl.TEXTURE_CUBE_MAP, blackCube]]) {
-    gl.bindTexture(kind, texture);
-    const faces = kind === gl.TEXTURE_2D ? [kind] : [0, 1, 2, 3, 4, 5].map(k => gl.TEXTURE_CUBE_MAP_POSITIVE_X + k);
-    for (const face of faces) gl.texImage2D(face, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    setFilters(gl, gl.NEAREST, gl.NEAREST, kind);
-  }
-  const probeExposed = 2 ** data.cameras[0].exposure;
-  let lines = null, instead = null, options, draws, drawn, at = roomProgram.at, state = -1;
+  const { probes, groups } = room, probePictures = makeProbes(gl, probes.length); // its own, when another room is shown
+  const black = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, black);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  setFilters(gl, gl.NEAREST, gl.NEAREST);
+  const probeExposed = 2 ** data.cameras[0].exposure, firstSheet = 5;
+  let lines = null, instead = null, options, draws, at = roomProgram.at, state = -1;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
+  /// A rectangle of the picture, and the pixels that it touches.
   const scissor = (rectangle, { width, height }) => {
-    const [left, bottom] = [Math.floor(rectangle[0] * width), Math.floor(rectangle[1] * height)];
-    gl.scissor(left, bottom, Math.ceil(rectangle[2] * width) - left, Math.ceil(rectangle[3] * height) - bottom);
+    const [left, bottom] = [Math.floor(rectangle[0] * width) - 1, Math.floor(rectangle[1] * height) - 1];
+    gl.scissor(left, bottom, Math.ceil(rectangle[2] * width) + 1 - left, Math.ceil(rectangle[3] * height) + 1 - bottom);
   };
-  const stencil = (level, whenSeen) => { gl.stencilFunc(gl.EQUAL, level, 255); gl.stencilOp(gl.KEEP, gl.KEEP, whenSeen); };
   const blend = (source, destination) => {
     if (source === undefined) return gl.disable(gl.BLEND);
     gl.enable(gl.BLEND);
-    gl.blendFunc(source, destination);
+    gl.blendFuncSeparate(source, destination, gl.ZERO, gl.ONE);
   };
 
-  function useWorld(world) {
-    const { camera, mirror } = world;
-    drawn = world;
-    gl.useProgram(roomProgram.program);
+  /// What the frame draws, in the stream of triangles; before anything is drawn.
+  function plan(worlds) {
+    stream.begin();
+    for (const world of worlds) {
+      const runs = room.opaque.filter(run => !options.without || run.node !== options.without.node);
+      world.draws = groups.map((group, g) => {
+        if (g === 0) stream.window(world, options);
+        runs.filter(run => run.group === group).forEach(run => addRun(world, run));
+        if (g === 0 && world.depth > 0 && room.backs > 0)
+          for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
+        if (g === 0) stream.sky();
+        return { group, ...stream.segment() };
+      });
+      for (const child of world.children.filter(c => c.isBlurred)) {
+        child.mirror.runs.forEach(run => addRun(world, run));
+        child.surface = { group: child.mirror.runs[0].group, ...stream.segment() };
+      }
+      world.panes = options.falseColours ? [] : panesOf(world);
+    }
+    stream.end();
+  }
+  function addRun(world, run, add = stream.add) {
+    for (const part of run.parts) if (mayShow(world, part)) add(part.first, part.count);
+  }
+  /// Panes from far to near, those together that cover nothing of one another on the screen.
+  function panesOf(world) {
+    const { camera } = world, distance = run => lengthOf(minus(run.middle, camera.eye)), sets = [];
+    const faces = run => !run.plane || dot(run.plane.normal, camera.eye) > run.plane.offset;
+    const apart = (a, b) => a[0] > b[2] || b[0] > a[2] || a[1] > b[3] || b[1] > a[3];
+    for (const run of room.panes.filter(r => faces(r) && mayShow(world, r.parts[0])).sort((a, b) => distance(b) - distance(a))) {
+      const rectangle = boxOnScreen(camera, run.parts[0]), last = sets[sets.length - 1];
+      const set = last && last.group === run.group && last.rectangles.every(other => apart(rectangle, other)) ? last
+        : { group: run.group, runs: [], rectangles: [], children: [], isGrey: true };
+      if (set !== last) sets.push(set);
+      set.runs.push(run);
+      set.isGrey = set.isGrey && run.isGrey;
+      set.rectangles.push(rectangle);
+      set.children.push(...world.children.filter(c => c.mirror.number === run.mirror));
+    }
+    return sets.map(set => {
+      set.runs.forEach(run => addRun(world, run));
+      return { ...set, ...stream.segment() };
+    });
+  }
+
+  /// `onto`: the place of the picture, what the stencil has of this world, and what alpha tells.
+  function useWorld(world, { place, mark, tells }) {
+    const { camera, mirror } = world, target = bindTarget(place);
     gl.bindVertexArray(array);
+    gl.uniform1i(at.tells, tells);
     gl.uniformMatrix4fv(at.viewProjection, false, viewProjection(camera));
     gl.uniform3fv(at.eye, camera.eye);
+    gl.uniform3fv(at.pixelRight, times(camera.right, 2 * camera.half * camera.aspect / options.width));
+    gl.uniform3fv(at.pixelUp, times(camera.up, 2 * camera.half / options.height));
+    gl.uniform1f(at.depthFactor, 2 * camera.far * camera.near / (camera.far - camera.near));
     gl.uniform4fv(at.clip, mirror ? [...mirror.normal, mirror.offset + 2e-6 * room.size] : [0, 0, 0, -1]);
     gl.frontFace(world.depth % 2 ? gl.CW : gl.CCW);
+    scissor(world.rectangle, target);
+    gl.stencilFuncSeparate(gl.FRONT, gl.EQUAL, mark, 255);
+    gl.stencilFuncSeparate(gl.BACK, gl.ALWAYS, mark, 255);
+    gl.depthFunc(gl.LEQUAL);
+    gl.depthMask(true);
+    gl.enable(gl.CULL_FACE);
+    blend();
+    const followed = new Uint32Array(mostMirrors / 32);
+    for (const child of world.children) if (!child.isBlurred) followed[child.mirror.number >> 5] |= 1 << child.mirror.number % 32;
+    gl.uniform4uiv(at["followed[0]"], followed);
+    return target;
   }
-  /// Parts of a run that the world can show, those in a row together: a draw costs more than a few
-  /// triangles between them.
-  function drawParts(run) {
-    const fewTriangles = 4096;
-    let first = 0, count = 0;
-    for (const part of run.parts) {
-      if (!mayShow(drawn, part)) continue;
-      if (count && part.first > first + count + fewTriangles) { draw(first, count); count = 0; }
-      if (!count) first = part.first;
-      count = part.first + part.count - first;
-    }
-    if (count) draw(first, count);
-  }
-  function draw(first, count) {
+  function draw({ group, first, count }, what, mirrored) {
+    if (!count) return;
+    gl.uniform1i(at.shows, what);
+    group.units.forEach((texture, k) => bind(firstSheet + k, textures[texture]));
+    bind(3, mirrored);
     gl.drawElements(gl.TRIANGLES, 3 * count, gl.UNSIGNED_INT, 12 * first);
     ++draws;
   }
-  function drawRuns(runs, what) {
-    gl.uniform1i(at.shows, what);
-    for (const run of runs) {
-      gl.uniform1i(at.hasColour, run.colour >= 0);
-      gl.uniform1i(at.hasEmission, run.emission >= 0);
-      bind(1, run.colour >= 0 ? textures[run.colour] : black);
-      bind(2, run.emission >= 0 ? textures[run.emission] : black);
-      // Probes see one another as if for the first time, whatever they showed under other lamps.
-      const isOf = run.probe && run.probe.state === room.lamps.state, probe = run.probe && (isOf || !options.without) && run.probe.texture;
-      gl.uniform1i(at.hasProbe, probe ? 1 : 0);
-      if (probe) {
-        bind(5, probe, gl.TEXTURE_CUBE_MAP);
-        gl.uniform3fv(at.probeScale, times(isOf ? [1, 1, 1] : ratioOf(run.probe, room.ambient), 2 ** options.exposure / probeExposed));
-        gl.uniform3fv(at.probePlace, run.probe.place);
-        gl.uniform1f(at.thickness, run.probe.thickness);
-      }
-      drawParts(run);
-    }
-  }
-  function drawSky(camera, place) {
-    const sky = skyProgram.at;
-    gl.useProgram(skyProgram.program);
-    gl.bindVertexArray(nothing);
-    gl.uniform3fv(sky.right, times(camera.right, camera.half * camera.aspect));
-    gl.uniform3fv(sky.up, times(camera.up, camera.half));
-    gl.uniform3fv(sky.forward, camera.forward);
-    gl.uniform1f(sky.depth, 1);
-    gl.uniform1f(sky.alpha, place > 0 ? 6e4 : 1);
-    gl.frontFace(gl.CCW);
-    gl.depthFunc(gl.ALWAYS);
-    gl.depthMask(true);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-    gl.depthFunc(gl.LEQUAL);
-    ++draws;
-  }
+  const isMirrored = child => !child.isBlurred && child.mirror.kind !== "pane";
 
-  /// What all mirrors in it are drawn onto.
-  function drawOpaque(world) {
-    if (world.depth > 0 && room.backs > 0) {
-      gl.cullFace(gl.FRONT);
-      gl.enable(gl.POLYGON_OFFSET_FILL);
-      gl.polygonOffset(2, 2);
-      gl.uniform1i(at.shows, shown.black);
-      gl.uniform1i(at.hasColour, false);
-      draw(0, room.backs);
-      gl.cullFace(gl.BACK);
-      gl.disable(gl.POLYGON_OFFSET_FILL);
+  /// Worlds that hide nothing of one another, with what they mirror, onto the picture of a place.
+  function drawTrees(roots, place) {
+    const levels = [roots];
+    for (let level = roots; level.length; levels.push(level))
+      level = level.flatMap(world => farthestFirst(world.children.filter(isMirrored)));
+    for (const level of levels.reverse()) {
+      if (!level.length) continue;
+      const own = place === 0 ? alphas.straight : roots[0].windows ? alphas.covered : alphas.distance;
+      const whole = level.map(world => world.rectangle).reduce((a, b) => a.map((x, k) => k < 2 ? Math.min(x, b[k]) : Math.max(x, b[k])));
+      level.forEach((world, k) => {
+        if (k % 255 === 0) {
+          scissor(whole, bindTarget(place));
+          gl.clear(gl.STENCIL_BUFFER_BIT | (k ? 0 : gl.COLOR_BUFFER_BIT));
+        }
+        drawWorld(world, { place, mark: 1 + k % 255, tells: level === roots ? own : alphas.covered });
+      });
+      const target = bindTarget(place);
+      scissor(whole, target);
+      takeMean(target);
     }
-    drawRuns(options.without ? room.opaque.filter(run => !options.without.has(run)) : room.opaque, shown.own);
+    return targets[place].texture;
+  }
+  function drawWorld(world, onto) {
+    const target = useWorld(world, onto);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.CULL_FACE);
+    for (const part of world.draws) draw(part, shown.own, target.texture);
+    gl.enable(gl.CULL_FACE);
     if (options.lines) drawLines();
     if (instead) drawInsteadLines();
+    for (const child of world.children) if (child.isBlurred) drawRough(world, child, onto);
+    for (const set of world.panes) drawPanes(world, set, onto);
   }
   /// Of what is shown in place of light.
   function drawInsteadLines() {
@@ -142,101 +172,33 @@ function makePainter(gl, data, room, textures) {
     ++draws;
   }
 
-  function drawMirror(world, child, level, place) {
-    const target = targets[place], { mirror } = child;
-    useWorld(world);
-    scissor(child.rectangle, target);
-    blend();
-    stencil(level, gl.INCR);
-    gl.colorMask(false, false, false, false);
-    gl.depthMask(false);
-    drawRuns(mirror.runs, shown.weight);
-    gl.colorMask(true, true, true, true);
-    stencil(level + 1, gl.KEEP);
-    drawSky(child.camera, place);
-    drawWorld(child, level + 1, place);
-
-    useWorld(world);
-    scissor(child.rectangle, target);
-    stencil(level + 1, gl.DECR);
-    gl.depthFunc(gl.ALWAYS);
-    gl.depthMask(true);
-    blend(gl.ZERO, gl.SRC_COLOR);
-    drawRuns(mirror.runs, shown.weight);
-    stencil(level, gl.KEEP);
-    gl.depthFunc(gl.EQUAL);
-    blend(gl.ONE, gl.ONE);
-    if (mirror.shines) drawRuns(mirror.runs, shown.besideMirror);
-    blend();
-    gl.depthFunc(gl.LEQUAL);
-  }
-
   /// A surface that blurs what it mirrors.
-  function drawRough(world, child, level, place) {
-    const mirrored = drawAside(child, place);
-    useWorld(world);
-    scissor(world.rectangle, targets[place]);
-    stencil(level, gl.KEEP);
+  function drawRough(world, child, onto) {
+    const mirrored = drawTrees([child], onto.place + 1);
+    useWorld(world, onto);
     gl.depthFunc(gl.EQUAL);
     bind(3, mirrored);
     gl.generateMipmap(gl.TEXTURE_2D);
     setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR);
     gl.uniformMatrix4fv(at.asideProjection, false, viewProjection(child.camera));
     gl.uniform3fv(at.asideEye, child.camera.eye);
-    drawRuns(child.mirror.runs, shown.rough);
-    bind(3, mirrored); // runs bind textures of their own
+    draw(child.surface, shown.rough, mirrored);
+    bind(3, mirrored);
     setFilters(gl, gl.NEAREST, gl.NEAREST);
-    bind(3, black);
-    gl.depthFunc(gl.LEQUAL);
   }
-
-  /// Returns the texture with what a pane, or a rough surface, mirrors.
-  function drawAside(child, place) {
-    const target = bindTarget(place + 1);
-    scissor(child.rectangle, target);
-    blend();
-    gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
-    stencil(0, gl.KEEP);
-    drawSky(child.camera, place + 1);
-    drawWorld(child, 0, place + 1);
-    scissor(child.rectangle, target);
-    takeMean(target);
-    bindTarget(place);
-    return target.texture;
-  }
-  function drawPanes(world, level, place) {
-    const eye = world.camera.eye, distance = run => lengthOf(minus(run.middle, eye));
-    const faces = run => !run.plane || dot(run.plane.normal, eye) > run.plane.offset;
-    for (const run of room.panes.filter(r => faces(r) && mayShow(world, r.parts[0])).sort((a, b) => distance(b) - distance(a))) {
-      const child = world.children.find(c => c.mirror.number === run.mirror);
-      const mirrored = child ? drawAside(child, place) : black;
-      useWorld(world);
-      scissor(world.rectangle, targets[place]);
-      stencil(level, gl.KEEP);
-      gl.depthMask(false);
+  /// Where what is passed is grey, one draw does it: T is a number by which what is there is multiplied.
+  function drawPanes(world, set, onto) {
+    const mirrored = set.children.length ? drawTrees(set.children, onto.place + 1) : black;
+    useWorld(world, onto);
+    gl.depthMask(false);
+    if (!set.isGrey) {
       blend(gl.ZERO, gl.SRC_COLOR);
-      drawRuns([run], shown.passed);
-      blend(gl.ONE, gl.ONE);
-      bind(3, mirrored);
-      drawRuns([run], shown.pane);
-      bind(3, black);
-      blend();
-      gl.depthMask(true);
+      draw(set, shown.passed, black);
     }
-  }
-
-  function drawWorld(world, level, place) {
-    useWorld(world);
-    scissor(world.rectangle, targets[place]);
+    blend(gl.ONE, set.isGrey ? gl.SRC_ALPHA : gl.ONE);
+    draw(set, shown.pane, mirrored);
     blend();
-    stencil(level, gl.KEEP);
-    gl.depthFunc(gl.LEQUAL);
     gl.depthMask(true);
-    drawOpaque(world);
-    for (const child of world.children)
-      if (child.mirror.rough && !options.falseColours) drawRough(world, child, level, place);
-      else if (child.mirror.kind !== "pane") drawMirror(world, child, level, place);
-    if (!options.falseColours) drawPanes(world, level, place);
   }
 
   function bindTarget(place) {
@@ -248,7 +210,6 @@ function makePainter(gl, data, room, textures) {
     targets[place] = targets[place] || makeTarget(gl, width, height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, targets[place].drawn);
     gl.useProgram(roomProgram.program);
-    gl.uniform1i(at.aside, place > 0 ? 1 : 0);
     return targets[place];
   }
   function takeMean({ drawn, mean, width, height }) {
@@ -259,22 +220,17 @@ function makePainter(gl, data, room, textures) {
 
   function setConstants() {
     const exposed = 2 ** options.exposure;
-    gl.useProgram(skyProgram.program);
-    gl.uniform3fv(skyProgram.at.background, room.lamps.of(data.skyLamp).map((s, k) => s * data.background[k]));
-    gl.uniform1i(skyProgram.at.hasSky, textures.sky ? 1 : 0);
-    gl.uniform1i(skyProgram.at.falseColours, options.falseColours);
-    gl.uniform1f(skyProgram.at.exposed, exposed);
-    gl.uniform1f(skyProgram.at.skyScale, data.sky ? data.sky.brightness : 1);
-    gl.uniform1i(skyProgram.at.sky, 6);
-    gl.uniform2fv(skyProgram.at.turned, data.sky ? data.sky.turned : [1, 0]);
-    bind(6, textures.sky ? textures.sky.texture : black);
     gl.useProgram(roomProgram.program);
-    ["looks", "colourTexture", "emissionTexture", "behindPane", "falseScale", "probe"].forEach((name, unit) =>
-      gl.uniform1i(at[name], unit));
+    gl.uniform3fv(at.background, room.lamps.of(data.skyLamp).map((s, k) => s * data.background[k]));
+    gl.uniform1f(at.skyScale, data.sky ? data.sky.brightness : 1);
+    gl.uniform2fv(at.turned, data.sky ? data.sky.turned : [1, 0]);
+    ["looks", "sky", "probes", "mirrored", "falseScale"].forEach((name, unit) => gl.uniform1i(at[name], unit));
+    if (room.needs.sheets) gl.uniform1iv(at["sheets[0]"], Array.from({ length: room.needs.sheets }, (_, k) => firstSheet + k));
     bind(0, looks);
-    bind(3, black);
+    bind(1, textures.sky ? textures.sky.texture : black);
+    bind(2, probePictures, gl.TEXTURE_2D_ARRAY);
     bind(4, scale);
-    bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
+    if (room.needs.bodies) gl.uniform4fv(at["bodies[0]"], bodyNumbers());
     gl.uniform1i(at.falseColours, options.falseColours);
     gl.uniform1i(at.facets, options.facets || 8);
     gl.uniform1f(at.lightScale, room.instead ? 1 : data.light);
@@ -286,9 +242,18 @@ function makePainter(gl, data, room, textures) {
     gl.uniform2f(at.pictureSize, options.width, options.height);
   }
 
+  /// Bodies see one another as if for the first time, whatever they showed under other lamps.
+  function bodyNumbers() {
+    const numbers = new Float32Array(8 * mostProbes), exposed = 2 ** options.exposure / probeExposed;
+    probes.forEach((probe, k) => {
+      const isOf = probe.state === room.lamps.state, has = probe.state !== undefined && (isOf || !options.without);
+      const factor = has ? times(isOf ? [1, 1, 1] : ratioOf(probe, room.ambient), exposed) : [0, 0, 0];
+      numbers.set([...probe.place, probe.thickness, ...factor, has ? 1 : 0], 8 * k);
+    });
+    return numbers;
+  }
+
   function showOnScreen(block) {
-    scissor([0, 0, 1, 1], targets[0]);
-    takeMean(targets[0]);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.STENCIL_TEST);
@@ -314,7 +279,7 @@ function makePainter(gl, data, room, textures) {
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
     gl.bindVertexArray(null);
-    gl.vertexAttribI4ui(5, 0, 0, 0, 0); // what the shader wants of a line besides is a whole number
+    for (const place of [5, 6]) gl.vertexAttribI4ui(place, 0, 0, 0, 0); // what the shader wants of a line besides are whole numbers
   }
   function freeInstead() {
     gl.deleteVertexArray(instead.array);
@@ -333,32 +298,28 @@ function makePainter(gl, data, room, textures) {
     if (textures.sky) setSky(gl, textures.sky, room.lamps.of(data.skyLamp), room.lamps.of(data.sunLamp));
     if (room.needs.bodies || room.needs.rough) room.ambient = meanRadiance(data, room.tables, irradiance);
   }
-  function begin(target) {
+  function begin() {
     gl.viewport(0, 0, options.width, options.height);
     for (const test of [gl.DEPTH_TEST, gl.STENCIL_TEST, gl.SCISSOR_TEST, gl.CULL_FACE]) gl.enable(test);
+    gl.stencilOpSeparate(gl.FRONT, gl.KEEP, gl.KEEP, gl.KEEP);
+    gl.stencilOpSeparate(gl.BACK, gl.KEEP, gl.KEEP, gl.REPLACE);
     setConstants();
-    scissor([0, 0, 1, 1], target);
-    gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
-    stencil(0, gl.KEEP);
   }
   /// The room alone, for a probe.
   function paintFace(camera, without) {
-    const place = 4;
+    const place = 4, root = rootWorld(camera);
     options = { width: probeSize, height: probeSize, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
-    const target = bindTarget(place);
-    begin(target);
-    drawSky(camera, place);
-    drawWorld(rootWorld(camera), 0, place);
-    scissor([0, 0, 1, 1], target);
-    takeMean(target);
-    return target.mean;
+    plan([root]);
+    begin();
+    drawTrees([root], place);
+    return targets[place].mean;
   }
   /// What a body sees changes with the lamps alone: asked for when a first picture is there. Returns whether there was one left.
   /// Each is tried once: a graphics card that has dropped the page gives no texture, ever.
   function fillNextProbe() {
     relight();
     const probe = room.probes.find(p => p.state !== room.lamps.state);
-    if (probe) fillProbe(gl, room, probe, paintFace);
+    if (probe) fillProbe(gl, room, probe, probePictures, paintFace);
     return probe !== undefined;
   }
 
@@ -367,13 +328,14 @@ function makePainter(gl, data, room, textures) {
   function paint(camera, wanted) {
     options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block, falseColours: wanted.falseColours || Boolean(room.instead) };
     draws = 0;
+    const blurs = mirror => mirror.rough && !options.falseColours;
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
-      && (!(mirror.kind === "pane" || mirror.rough) || world.asides < 2);
-    const worlds = visibleWorlds(room, camera, options.most, follows);
+      && (!(mirror.kind === "pane" || blurs(mirror)) || world.asides < 2);
+    const worlds = visibleWorlds(room, camera, options.most, follows, blurs);
     relight();
-    begin(bindTarget(0));
-    drawSky(camera, 0);
-    drawWorld(worlds.root, 0, 0);
+    plan(worlds.all);
+    begin();
+    drawTrees([worlds.root], 0);
     showOnScreen(options.block);
     return { worlds: worlds.count, cut: worlds.cut, depth: worlds.depth, draws };
   }
@@ -383,7 +345,8 @@ function makePainter(gl, data, room, textures) {
     buffers.forEach(buffer => gl.deleteBuffer(buffer));
     if (lines) gl.deleteBuffer(lines.ends);
     if (instead) freeInstead();
-    [...textures, ...(textures.sky ? [textures.sky.texture] : []), ...probes.map(probe => probe.texture || null), looks, scale, black, blackCube]
+    stream.free();
+    [...textures, ...(textures.sky ? [textures.sky.texture] : []), probePictures, looks, scale, black]
       .forEach(texture => gl.deleteTexture(texture));
     [array, nothing].forEach(made => gl.deleteVertexArray(made));
   }

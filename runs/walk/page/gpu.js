@@ -45,29 +45,64 @@ function makeBuffer(gl, target, values) {
   return buffer;
 }
 
-/// The vertices of the room, and their triangles. Returns { array, light, buffers }, light the buffer of their irradiance.
-function makeRoomArrays(gl, data, tables, irradiance) {
-  const array = gl.createVertexArray(), buffers = [];
+/// Numbers by vertex that batches have, from 1 in the page's order, 0 of none: mirror, body, and the units of both textures.
+function numbersOf({ data, tables, probes, mirrors }) {
+  const numbers = new Uint16Array(4 * tables.look.length), isMirror = new Set(mirrors.map(mirror => mirror.number));
+  for (const batch of data.batches) {
+    const [, , , mirror, node, first, count] = batch, { units } = batch.group;
+    const row = [isMirror.has(mirror) ? mirror + 1 : 0, probes.findIndex(probe => probe.node === node) + 1,
+      units.indexOf(batch[1]) + 1, units.indexOf(batch[2]) + 1];
+    for (let k = 3 * first; k < 3 * (first + count); ++k) numbers.set(row, 4 * tables.triangles[k]);
+  }
+  return numbers;
+}
+
+/// By vertex, on the octahedron: those of bodies, and of black backs that of a triangle at the vertex.
+function normalsOf({ tables, backs }, places) {
+  const normals = new Float32Array(2 * places.sky), corner = v => [...tables.points.subarray(3 * v, 3 * v + 3)];
+  normals.set(Float32Array.from(tables.normal, x => x / 16384));
+  for (let k = 0; k < backs; ++k) {
+    const triangle = tables.triangles.subarray(3 * k, 3 * k + 3), [a, b, c] = [...triangle].map(corner);
+    const n = cross(minus(b, a), minus(c, a)), sum = Math.abs(n[0]) + Math.abs(n[1]) + Math.abs(n[2]) || 1, sign = x => x < 0 ? -1 : 1;
+    let [x, y] = [n[0] / sum, n[1] / sum];
+    if (n[2] < 0) [x, y] = [(1 - Math.abs(y)) * sign(x), (1 - Math.abs(x)) * sign(y)];
+    for (const v of triangle) normals.set([x, y], 2 * (places.back + v));
+  }
+  return normals;
+}
+
+/// The vertices of the room, of its black backs, of the sky and of windows (stream.js), and the triangles of a frame.
+/// Returns { array, light, stream, buffers }, light the buffer of their irradiance.
+function makeRoomArrays(gl, room, irradiance) {
+  const { data, tables } = room, array = gl.createVertexArray(), buffers = [], places = placesBeside(room);
   gl.bindVertexArray(array);
-  const add = (place, values, count, type, normalized) => {
-    const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, values);
+  const add = (place, values, count, type, isShare = false) => {
+    const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, places.all * count * values.BYTES_PER_ELEMENT);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, values);
     buffers.push(buffer);
     gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, count, type, normalized, 0, 0);
+    if (place < 5) gl.vertexAttribPointer(place, count, type, isShare, 0, 0);
+    else gl.vertexAttribIPointer(place, count, type, 0, 0);
     return buffer;
   };
-  add(0, tables.points, 3, gl.FLOAT, false);
-  const light = add(1, irradiance, 3, gl.FLOAT, false);
-  add(2, Float32Array.from(tables.normal, x => x / 16384), 2, gl.FLOAT, false);
-  if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT, false);
+  const points = new Float32Array(3 * places.window);
+  points.set(tables.points);
+  points.copyWithin(3 * places.back, 0, 3 * (places.sky - places.back));
+  points.set(cubeCorners.flatMap(x => times(x, room.size)), 3 * places.sky);
+  const looks = new Uint16Array(places.all);
+  looks.set(tables.look);
+  looks.fill(looksBeside.back, places.back).fill(looksBeside.sky, places.sky).fill(looksBeside.window, places.window);
+  const positions = add(0, points, 3, gl.FLOAT), light = add(1, irradiance, 3, gl.FLOAT);
+  add(2, normalsOf(room, places), 2, gl.FLOAT);
+  if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT);
   if (tables.colour.some(x => x !== 65535)) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
   else gl.vertexAttrib4f(4, 1, 1, 1, 1);
-  buffers.push(makeBuffer(gl, gl.ARRAY_BUFFER, Uint16Array.from(tables.look)));
-  gl.enableVertexAttribArray(5);
-  gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_SHORT, 0, 0);
-  buffers.push(makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(tables.triangles)));
+  add(5, looks, 1, gl.UNSIGNED_SHORT);
+  add(6, numbersOf(room), 4, gl.UNSIGNED_SHORT);
+  const stream = makeStream(gl, room, positions);
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, stream.drawn);
   gl.bindVertexArray(null);
-  return { array, light, buffers };
+  return { array, light, stream, buffers };
 }
 
 function setValues(gl, buffer, values) {

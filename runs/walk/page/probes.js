@@ -1,12 +1,12 @@
 // What curved mirrors and solids of glass show: the room as the middle of their body sees it, once, in
-// a cube of six pictures without that body and without mirrors. Right for a small ball, near enough
+// six squares of a cube without that body and without mirrors. Right for a small ball, near enough
 // elsewhere; never a hole.
 "use strict";
 
 /// Bodies beyond so many show the mean light of the room.
 const mostProbes = 12, probeSize = 128;
 
-/// Right, up and forward of the faces of a cube map, +X, -X, +Y, -Y, +Z, -Z.
+/// Right, up and forward of the squares of a cube, as cube maps have them, +X, -X, +Y, -Y, +Z, -Z.
 const cubeFrames = [[[0, 0, -1], [0, -1, 0], [1, 0, 0]], [[0, 0, 1], [0, -1, 0], [-1, 0, 0]], [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
   [[1, 0, 0], [0, 0, -1], [0, -1, 0]], [[1, 0, 0], [0, -1, 0], [0, 0, 1]], [[-1, 0, 0], [0, -1, 0], [0, 0, -1]]];
 
@@ -26,7 +26,6 @@ function findProbes(room) {
     const { low, high } = boundsOf(points);
     probe.place = times(plus(low, high), 0.5);
     probe.thickness = Math.min(...minus(high, low));
-    probe.runs.forEach(run => { run.probe = probe; });
   }
   return probes;
 }
@@ -34,23 +33,28 @@ function findProbes(room) {
 /// The light of a probe, in that of its picture, until it is filled anew: by the mean of the room's.
 const ratioOf = (probe, ambient) => ambient.map((x, k) => probe.ambient[k] > 0 ? x / probe.ambient[k] : 1);
 
-/// `paintFace` draws the room without some runs onto a square picture, and returns its framebuffer.
-function fillProbe(gl, room, probe, paintFace) {
-  const part = gl.createFramebuffer(), isNew = !probe.texture;
-  probe.texture = probe.texture || gl.createTexture();
-  gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
-  if (isNew) gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 8, gl.RGBA16F, probeSize, probeSize);
-  setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR, gl.TEXTURE_CUBE_MAP);
+/// The pictures of all bodies.
+function makeProbes(gl, count) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
+  gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 8, gl.RGBA16F, probeSize, probeSize, 6 * Math.max(1, count));
+  setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR, gl.TEXTURE_2D_ARRAY);
+  return texture;
+}
+
+/// `paintFace` draws the room without a body onto a square picture, and returns its framebuffer.
+function fillProbe(gl, room, probe, texture, paintFace) {
+  const part = gl.createFramebuffer();
   cubeFrames.forEach(([right, up, forward], face) => {
     const camera = { eye: probe.place, right, up, forward, half: 1, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size };
-    const drawn = paintFace(camera, new Set(probe.runs));
+    const drawn = paintFace(camera, probe);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, drawn);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, part);
-    gl.framebufferTexture2D(gl.DRAW_FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, probe.texture, 0);
+    gl.framebufferTextureLayer(gl.DRAW_FRAMEBUFFER, gl.COLOR_ATTACHMENT0, texture, 0, 6 * room.probes.indexOf(probe) + face);
     gl.blitFramebuffer(0, 0, probeSize, probeSize, 0, 0, probeSize, probeSize, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   });
-  gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
-  gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
+  gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
+  gl.generateMipmap(gl.TEXTURE_2D_ARRAY);
   gl.deleteFramebuffer(part);
   [probe.state, probe.ambient] = [room.lamps.state, room.ambient];
 }

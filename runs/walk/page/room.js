@@ -14,7 +14,7 @@ function joinedRuns(data, tables, batches) {
       && last.emission === emission && last.node === body && last.first + last.count === first) {
       last.count += count;
       last.parts.push(batch.part);
-    } else runs.push({ section, colour, emission, first, count, node: body, probe: null, parts: [batch.part],
+    } else runs.push({ section, group: batch.group, colour, emission, first, count, node: body, parts: [batch.part],
       mirror: section === sections.pane ? mirror : -1 });
   }
   return runs;
@@ -23,6 +23,20 @@ function joinedRuns(data, tables, batches) {
 /// Whether it shows what its middle sees: of rough mirrors beside what their world's picture has.
 const leastRough = 0.03;
 const isBody = look => look.kind >= kinds.curved || (look.kind === kinds.mirror && look.roughness > leastRough);
+
+/// Textures by as many as one draw can show. Gives every batch the group that has both of its textures.
+const mostSheets = 8;
+function groupSheets(batches) {
+  const groups = [];
+  for (const batch of batches) {
+    const needed = [...new Set([batch[1], batch[2]])].filter(texture => texture >= 0);
+    const joined = ({ units }) => [...new Set([...units, ...needed])];
+    batch.group = groups.find(group => joined(group).length <= mostSheets);
+    if (!batch.group) groups.push(batch.group = { units: [] });
+    batch.group.units = joined(batch.group);
+  }
+  return groups;
+}
 
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
@@ -68,21 +82,23 @@ function readRoom(data, tables) {
   tables.points = Float32Array.from(tables.position, x => x * data.step);
   const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
   data.batches.forEach(batch => { batch.part = partOfBatch(tables, batch, margin); });
-  const runs = joinedRuns(data, tables, data.batches);
-  const room = { data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
+  const groups = groupSheets(data.batches), runs = joinedRuns(data, tables, data.batches);
+  const room = { groups, data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
   room.opaque = runs.filter(run => run.section !== sections.pane);
   room.panes = runs.filter(run => run.section === sections.pane);
-  room.panes.forEach(run => { run.middle = middleOf(tables, run); run.plane = data.mirrors[run.mirror]; });
+  room.panes.forEach(run => {
+    const { kind, f0, tint } = data.looks[tables.look[tables.triangles[3 * run.first]]], isEven = ([r, g, b]) => Math.max(r, g, b) - Math.min(r, g, b) < 1e-6;
+    // Whether what it passes of light is one number.
+    Object.assign(run, { middle: middleOf(tables, run), plane: data.mirrors[run.mirror], isGrey: kind !== kinds.pane || (isEven(f0) && isEven(tint)) });
+  });
   room.probes = findProbes(room);
-  room.backs = data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0);
   room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number, ...roughnessOf(data, tables, mirror, number),
-    runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)),
-    // Whether it shows light of its own below what it mirrors.
-    shines: mirror.kind !== "mirror" || data.batches.some(b => b[3] === number && hasOwn(data, tables, b)) }))
-    .filter(mirror => mirror.runs.length);
-  for (const run of room.mirrors.flatMap(mirror => mirror.runs))
-    run.probe = room.probes.find(probe => run.node >= 0 && probe.node === run.node) || null;
-  room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0 };
+    runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)) }))
+    .filter(mirror => mirror.runs.length && mirror.number < mostMirrors);
+  // Only mirrors show what is black from behind.
+  room.backs = room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0;
+  room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0,
+    sky: Boolean(data.sky), sheets: Math.max(0, ...groups.map(group => group.units.length)) };
   return room;
 }
 
@@ -91,11 +107,6 @@ function roughnessOf(data, tables, mirror, number) {
   const batch = data.batches.find(b => b[3] === number);
   const roughness = mirror.kind === "pane" || !batch ? 0 : lookOf(data, tables, batch).roughness;
   return { rough: roughness > leastRough, alpha: roughness ** 2 };
-}
-
-function hasOwn(data, tables, batch) {
-  const look = lookOf(data, tables, batch);
-  return [...look.rest, ...look.albedo, ...look.emission].some(x => x > 0);
 }
 
 /// The node and the look of a triangle.

@@ -2,6 +2,11 @@
 // and panes by R(cos) and T(cos) as scenes/materials/lobes.h and glass.h have them.
 "use strict";
 
+/// Looks that no material has: windows of worlds on the screen, the sky around the eye, black backs.
+const looksBeside = { window: 65535, sky: 65534, back: 65533 };
+/// Mirrors beyond that many are not followed.
+const mostMirrors = 2048;
+
 const roomVertex = `#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 irradiance;
@@ -9,11 +14,17 @@ layout(location = 2) in vec2 octahedral;
 layout(location = 3) in vec4 texturePlace;
 layout(location = 4) in vec4 vertexColour;
 layout(location = 5) in uint lookNumber;
+layout(location = 6) in uvec4 numbers; // of its mirror, its body, and the units of its two textures, from 1
 uniform mat4 viewProjection;
+uniform vec3 eye, pixelRight, pixelUp; // the sides of a pixel at distance one
+uniform float depthFactor; // depth is a constant less this by the distance along the view
+uniform uvec4 followed[${mostMirrors / 128}]; // a bit for each mirror with a picture of what it shows here
 invariant gl_Position;
 out vec3 place, light, normal;
 out vec4 onTextures, colour;
-flat out int look;
+flat out int look, body;
+flat out ivec2 units;
+flat out int isFollowed;
 void main() {
   place = position;
   light = irradiance; // of all lamps, each times its dimmer (lamps.js)
@@ -23,37 +34,103 @@ void main() {
   onTextures = texturePlace;
   colour = vertexColour;
   look = int(lookNumber);
-  gl_Position = viewProjection * vec4(position, 1.0);
+  body = int(numbers.y) - 1;
+  units = ivec2(numbers.zw) - 1;
+  uint mirror = numbers.x - 1u;
+  isFollowed = numbers.x > 0u && numbers.x <= ${mostMirrors}u && (followed[mirror >> 7u][(mirror >> 5u) & 3u] >> (mirror & 31u) & 1u) != 0u ? 1 : 0;
+  if (look == ${looksBeside.sky}) place += eye;
+  gl_Position = viewProjection * vec4(place, 1.0);
+  if (look == ${looksBeside.sky}) gl_Position.z = gl_Position.w; // behind all else, and never before the near plane
+  // Behind a front in the same place, by as much as their depth changes within two pixels: elements that share an edge may
+  // have vertices at different places of it.
+  if (look == ${looksBeside.back}) {
+    float slope = max(abs(dot(normal, pixelRight)), abs(dot(normal, pixelUp))) * depthFactor / max(abs(dot(normal, place - eye)), 1e-12);
+    gl_Position.z = min(gl_Position.z + (2e-6 + 2.0 * slope) * gl_Position.w, gl_Position.w);
+  }
+  if (look == ${looksBeside.window}) gl_Position = vec4(position.xy, 1.0, 1.0);
 }`;
 
-/// What a draw of the room writes. Alpha is 1 where surfaces are seen straight, 0 by way of mirrors;
-/// of what is drawn aside it is the distance from the eye.
-const shown = { own: 0, black: 1, weight: 2, besideMirror: 3, passed: 4, pane: 5, lines: 6, rough: 7 };
+/// What a draw of the room writes.
+const shown = { own: 0, passed: 1, pane: 2, lines: 3, rough: 4 };
+/// And what its alpha is: 1 where surfaces are seen straight and 0 by way of mirrors, the share of a pixel that windows
+/// cover, or the distance from the eye.
+const alphas = { straight: 0, covered: 1, distance: 2 };
 const kinds = { plain: 0, unlit: 1, coat: 2, mirror: 3, pane: 4, covering: 5, unlitCovering: 6, curved: 7, solid: 8, glossy: 9 };
 
+/// What is beyond the room along a unit vector.
+const skyLight = hasSky => hasSky ? `
+uniform sampler2D sky;
+uniform vec2 turned;
+uniform float skyScale;
+vec3 skyLight(vec3 d) {
+  d.xz = vec2(turned.x * d.x - turned.y * d.z, turned.y * d.x + turned.x * d.z);
+  return textureLod(sky, vec2(0.5 + atan(d.z, d.x) / 6.28318530718, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265359), 0.0).rgb * skyScale;
+}` : `
+uniform vec3 background;
+vec3 skyLight(vec3 d) { return background; }`;
+
+/// The texel of one of so many textures, white of none. Loops of one step, since software that draws goes past loops,
+/// but by way of all branches.
+const sheetAt = count => count ? `
+uniform sampler2D sheets[${count}];
+vec4 sheetAt(int unit, vec2 at, vec2 dx, vec2 dy) {
+  vec4 texel = vec4(1.0);
+${Array.from({ length: count }, (_, k) => `  for (int k = unit; k == ${k}; k = -1) texel = textureGrad(sheets[${k}], at, dx, dy);`).join("\n")}
+  return texel;
+}` : `
+vec4 sheetAt(int unit, vec2 at, vec2 dx, vec2 dy) { return vec4(1.0); }`;
+
+/// What the middles of bodies see, as six squares of a cube to each (probes.js): the picture along d, as means of 2^level
+/// texels. Beyond the middles of a square's outer texels it is what they are.
+const bodySees = `
+uniform sampler2DArray probes;
+uniform vec4 bodies[${2 * mostProbes}]; // place and thickness, factor and whether it has a picture
+#define hasBody (body >= 0 && bodies[2 * max(body, 0) + 1].w > 0.0)
+vec3 bodyPlace() { return bodies[2 * max(body, 0)].xyz; }
+vec3 bodyScale() { return bodies[2 * max(body, 0) + 1].rgb; }
+vec4 bodySees(vec3 d, float level) {
+  vec3 a = abs(d);
+  bool isX = a.x >= a.y && a.x >= a.z, isY = !isX && a.y >= a.z;
+  float along = isX ? d.x : isY ? d.y : d.z, side = along < 0.0 ? -1.0 : 1.0;
+  vec2 at = (isX ? vec2(-side * d.z, -d.y) : isY ? vec2(d.x, side * d.z) : vec2(side * d.x, -d.y)) / max(abs(along), 1e-12);
+  float face = (isX ? 0.0 : isY ? 2.0 : 4.0) + (side < 0.0 ? 1.0 : 0.0), width = max(1.0, float(${probeSize}) * exp2(-level));
+  return textureLod(probes, vec3(0.5 + 0.5 * clamp(at, 1.0 / width - 1.0, 1.0 - 1.0 / width), 6.0 * float(max(body, 0)) + face), level);
+}`;
+
 /// Only what the room has is compiled: where the processor draws, that takes longer than a frame.
-const roomFragment = ({ bodies, rough, panes }) => `#version 300 es
+const roomFragment = ({ bodies, rough, panes, sky, sheets }) => `#version 300 es
 #define BODIES ${Number(bodies)}
 #define ROUGH ${Number(rough)}
 #define PANES ${Number(panes)}
 precision highp float;
 precision highp int;
+precision highp sampler2DArray;
 in vec3 place, light, normal;
 in vec4 onTextures, colour;
-flat in int look;
-uniform int shows, facets;
+flat in int look, body, isFollowed;
+flat in ivec2 units;
+uniform int shows, tells, facets;
 uniform mat4 asideProjection;
 uniform vec4 lineColour;
-uniform bool aside, falseColours, hasColour, hasEmission, hasProbe;
-uniform vec3 eye, asideEye, ambient, lowest, highest, probePlace, probeScale;
+uniform bool falseColours;
+uniform vec3 eye, asideEye, ambient, lowest, highest;
 uniform vec4 clip; // the room is where dot(clip.xyz, x) > clip.w
-uniform float lightScale, exposed, topIrradiance, thickness;
+uniform float lightScale, exposed, topIrradiance;
 uniform vec2 pictureSize;
-uniform sampler2D looks, colourTexture, emissionTexture, behindPane, falseScale;
-uniform samplerCube probe;
+uniform sampler2D looks, mirrored, falseScale;
 out vec4 result;
 const float pi = 3.14159265358979;
 #define NUMBERS(k) texelFetch(looks, ivec2(k, look), 0)
+${skyLight(sky)}
+${sheetAt(sheets)}
+#if BODIES
+${bodySees}
+#else
+const bool hasBody = false;
+vec3 bodyPlace() { return vec3(0.0); }
+vec4 bodySees(vec3 d, float level) { return vec4(0.0); }
+vec3 bodyScale() { return vec3(1.0); }
+#endif
 
 #if PANES || BODIES
 float fresnel(float ior, float c) {
@@ -88,7 +165,7 @@ vec2 onAside(vec3 x, out bool isSeen) {
 vec2 onAside(vec3 x) { bool isSeen; return onAside(x, isSeen); }
 /// How far from here what that picture shows towards a point is.
 float farOnAside(vec3 x) {
-  float far = textureLod(behindPane, onAside(x), 0.0).a;
+  float far = textureLod(mirrored, onAside(x), 0.0).a;
   return min(distance(asideEye + far * normalize(x - asideEye), place), 1e4);
 }
 /// The frame of facets by GGX about n, turned from pixel to pixel.
@@ -113,8 +190,8 @@ vec3 facetRay(Facets f, vec3 towards, int k, out float c, out float weight, out 
 }
 /// How far from here what the middle of a body sees towards a point is.
 float farOfBody(vec3 x) {
-  vec3 to = x - probePlace;
-  return distance(probePlace + textureLod(probe, to, 0.0).a * normalize(to), place);
+  vec3 to = x - bodyPlace();
+  return distance(bodyPlace() + bodySees(to, 0.0).a * normalize(to), place);
 }
 /// What a rough surface mirrors, times R(o.h): each facet shows the picture aside where its ray ends, first
 /// taken for as far away as what the mirror shows straight, then as what is there. Means stand for what
@@ -131,8 +208,8 @@ vec3 blurred(vec3 n, vec3 towards, float roughness, bool coat, vec3 metal) {
     float level = log2(max(1.0, width * length((onAside(met) - middle) * pictureSize)));
     met = place + farOnAside(met) * r;
     bool isSeen;
-    vec3 shown = textureLod(behindPane, onAside(met, isSeen), level).rgb;
-    if (!isSeen && hasProbe) shown = textureLod(probe, place + farOfBody(place + ends * r) * r - probePlace, 1.0).rgb * probeScale;
+    vec3 shown = textureLod(mirrored, onAside(met, isSeen), level).rgb;
+    if (!isSeen && hasBody) shown = bodySees(place + farOfBody(place + ends * r) * r - bodyPlace(), 1.0).rgb * bodyScale();
     sum += weight * (coat ? coatReflectance(c) : metal) * shown;
     weights += weight;
   }
@@ -149,10 +226,10 @@ vec3 seenByFacets(vec3 n, vec3 towards, float roughness) {
     vec3 met = place + min(1e4, farOfBody(place + far * r)) * r;
     met = place + min(1e4, farOfBody(met)) * r;
     float level = log2(max(1.0, width * 81.0 * distance(r, straight))); // in texels of a face
-    sum += weight * textureLod(probe, met - probePlace, level).rgb;
+    sum += weight * bodySees(met - bodyPlace(), level).rgb;
     weights += weight;
   }
-  return sum * probeScale / max(weights, 1e-6);
+  return sum * bodyScale() / max(weights, 1e-6);
 }
 #endif
 #if BODIES
@@ -161,30 +238,35 @@ vec3 seenByFacets(vec3 n, vec3 towards, float roughness) {
 vec3 seenByBody(vec3 r, float roughness) {
   vec3 to = (mix(lowest, highest, step(0.0, r)) - place) / (r + 1e-9);
   vec3 met = place + r * max(0.0, min(to.x, min(to.y, to.z)));
-  return hasProbe ? textureLod(probe, met - probePlace, 6.0 * roughness).rgb * probeScale : ambient * exposed;
+  return hasBody ? bodySees(met - bodyPlace(), 6.0 * roughness).rgb * bodyScale() : ambient * exposed;
 }
 vec3 seenBySolid(vec3 n, vec3 towards) {
   vec4 f = NUMBERS(3), tint = NUMBERS(4);
   float c = min(1.0, abs(dot(n, towards))), straight = fresnel(tint.w, 1.0);
   vec3 face = mix(f.rgb, vec3(f.w), clamp((fresnel(tint.w, c) - straight) / (1.0 - straight + 1e-6), 0.0, 1.0));
   vec3 through = refract(towards, n, 1.0 / max(tint.w, 1.0));
-  return face * seenByBody(reflect(towards, n), 0.0) + (1.0 - face) * tint.rgb * exp(NUMBERS(5).rgb * thickness) * seenByBody(through, 0.0);
+  return face * seenByBody(reflect(towards, n), 0.0) + (1.0 - face) * tint.rgb * exp(NUMBERS(5).rgb * bodies[2 * max(body, 0)].w) * seenByBody(through, 0.0);
 }
 
 #endif
 
 void main() {
+  if (look == ${looksBeside.window}) { result = vec4(0.0); return; }
+  if (!gl_FrontFacing) discard; // of the window alone backs count: they mark where the rest is drawn
+  if (look == ${looksBeside.sky}) {
+    result = vec4(falseColours ? vec3(0.0) : min(skyLight(normalize(place - eye)) * exposed, vec3(6e4)), tells == ${alphas.distance} ? 6e4 : 1.0);
+    return;
+  }
   if (dot(clip.xyz, place) <= clip.w) discard;
   if (shows == ${shown.lines}) { result = lineColour; return; }
+  if (look == ${looksBeside.back}) { result = vec4(0.0, 0.0, 0.0, tells == ${alphas.distance} ? min(distance(place, eye), 6e4) : 1.0); return; }
   vec4 first = NUMBERS(0), second = NUMBERS(1), third = NUMBERS(2);
   int kind = int(third.w);
-  vec4 texel = hasColour ? texture(colourTexture, onTextures.xy) : vec4(1.0);
+  vec4 texel = sheetAt(units.x, onTextures.xy, dFdx(onTextures.xy), dFdy(onTextures.xy));
   float alpha = first.w * colour.a * texel.a;
-  if (second.w >= 0.0) {
-    float sharp = first.w * colour.a * (hasColour ? textureLod(colourTexture, onTextures.xy, 0.0).a : 1.0);
-    if (sharp < second.w) discard;
-  }
-  if (shows == ${shown.black}) { result = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (second.w >= 0.0 && first.w * colour.a * sheetAt(units.x, onTextures.xy, vec2(0.0), vec2(0.0)).a < second.w) discard;
+  vec4 seen = isFollowed == 0 ? vec4(0.0) : texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0);
+  seen.rgb /= max(seen.a, 0.01); // the mean of what windows cover of the pixel
   vec3 towards = normalize(place - eye), face = normalize(cross(dFdx(place), dFdy(place)));
   float c = min(1.0, abs(dot(face, towards)));
   vec3 tint = colour.rgb * texel.rgb, rho = first.rgb * tint + second.rgb;
@@ -192,17 +274,18 @@ void main() {
   if (falseColours) {
     float h = dot(light, vec3(0.2126, 0.7152, 0.0722)) * lightScale / topIrradiance;
     vec3 code = texture(falseScale, vec2((255.0 * clamp(h, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb;
-    bool lit = shows == ${shown.own} && kind != ${kinds.mirror} && kind != ${kinds.curved} && kind != ${kinds.solid};
-    result = vec4(lit ? code : vec3(shows == ${shown.weight} ? 1.0 : 0.0), 0.0);
+    bool lit = kind != ${kinds.mirror} && kind != ${kinds.curved} && kind != ${kinds.solid};
+    result = vec4(lit ? code : seen.rgb, tells == ${alphas.straight} ? 0.0 : 1.0);
     return;
   }
-  vec3 radiance = third.rgb * (hasEmission ? texture(emissionTexture, onTextures.zw).rgb : vec3(1.0));
+  vec3 radiance = third.rgb * sheetAt(units.y, onTextures.zw, dFdx(onTextures.zw), dFdy(onTextures.zw)).rgb;
   vec3 field = light * (lightScale / pi);
   vec3 weight = NUMBERS(5).rgb * tint, passedPart = vec3(1.0 - alpha);
   if (kind == ${kinds.coat}) weight = coatReflectance(c);
 #if PANES
   if (kind == ${kinds.pane}) glassShares(c, weight, passedPart);
 #endif
+  if (shows == ${shown.passed}) { result = vec4(passedPart, 1.0); return; }
   if (kind == ${kinds.unlit} || kind == ${kinds.unlitCovering}) radiance = first.rgb * tint;
   else if (kind == ${kinds.coat}) radiance += rho * (1.0 - max(weight.r, max(weight.g, weight.b))) * field;
   else radiance += rho * field;
@@ -216,19 +299,13 @@ void main() {
   if (shows == ${shown.rough})
     radiance += blurred(dot(face, towards) > 0.0 ? -face : face, towards, NUMBERS(5).w, kind == ${kinds.coat}, weight);
 #endif
-  if (shows == ${shown.own} && kind == ${kinds.coat}) radiance += weight * field * exposed;
-  if (kind == ${kinds.glossy} && !hasProbe) radiance += weight * field * exposed;
+  if (isFollowed != 0 && shows != ${shown.rough}) radiance += weight * seen.rgb;
+  else if (shows == ${shown.own} && kind == ${kinds.coat}) radiance += weight * field * exposed;
 #if BODIES
-  if (kind == ${kinds.glossy} && hasProbe)
-    radiance += weight * seenByFacets(dot(normal, towards) > 0.0 ? -normalize(normal) : normalize(normal), towards, NUMBERS(5).w);
+  if (kind == ${kinds.glossy})
+    radiance += weight * (hasBody ? seenByFacets(dot(normal, towards) > 0.0 ? -normalize(normal) : normalize(normal), towards, NUMBERS(5).w) : field * exposed);
 #endif
-  if (shows == ${shown.weight}) result = vec4(weight, 1.0);
-  else if (shows == ${shown.passed}) result = vec4(passedPart, 1.0);
-  else result = vec4(radiance, 1.0);
-  if (shows == ${shown.pane} && kind == ${kinds.pane})
-    result.rgb += weight * texture(behindPane, gl_FragCoord.xy / pictureSize).rgb;
-  if (aside) result.a = distance(place, eye);
-  if (shows == ${shown.weight} || shows == ${shown.besideMirror} || shows == ${shown.pane} || shows == ${shown.rough} && !aside)
-    result.a = 0.0;
-  result = min(result, vec4(6e4));
+  bool isMirrored = isFollowed != 0 || shows == ${shown.rough};
+  float told = tells == ${alphas.distance} ? distance(place, eye) : tells == ${alphas.straight} && isMirrored ? 0.0 : 1.0;
+  result = min(vec4(radiance, shows == ${shown.pane} ? passedPart.g : told), vec4(6e4));
 }`;

@@ -1,31 +1,11 @@
-// What is drawn over whole pictures: the sky beyond the room, and the picture as a display shows it
-// (image/view_transform.h).
+// The picture as a display shows it (image/view_transform.h).
 "use strict";
 
 const wholeVertex = `#version 300 es
 out vec2 at;
-uniform float depth;
 void main() {
   at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  gl_Position = vec4(at, depth, 1.0);
-}`;
-
-const skyFragment = `#version 300 es
-precision highp float;
-in vec2 at;
-uniform vec3 right, up, forward, background;
-uniform vec2 turned;
-uniform bool hasSky, falseColours;
-uniform float exposed, skyScale, alpha; // of what is drawn aside: farther away than all else
-uniform sampler2D sky;
-out vec4 result;
-void main() {
-  vec3 d = normalize(forward + at.x * right + at.y * up), light = background;
-  if (hasSky) {
-    d.xz = vec2(turned.x * d.x - turned.y * d.z, turned.y * d.x + turned.x * d.z);
-    light = textureLod(sky, vec2(0.5 + atan(d.z, d.x) / 6.28318530718, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265359), 0.0).rgb * skyScale;
-  }
-  result = vec4(falseColours ? vec3(0.0) : min(light * exposed, vec3(6e4)), alpha);
+  gl_Position = vec4(at, 0.0, 1.0);
 }`;
 
 const screenFragment = `#version 300 es

@@ -55,22 +55,49 @@ function rectangleOf(camera, windows) {
   return rectangle;
 }
 
+/// The same around a box, a little larger; the whole picture where a part of it is behind the eye.
+function boxOnScreen(camera, { low, high }) {
+  const points = cubeCorners.map(corner => corner.map((side, axis) => (side < 0 ? low : high)[axis]));
+  if (points.some(x => dot(camera.forward, minus(x, camera.eye)) <= camera.near)) return [0, 0, 1, 1];
+  const margin = 0.005;
+  return rectangleOf(camera, [points]).map((x, k) => k < 2 ? x - margin : x + margin);
+}
+
 /// The camera behind a mirror: it sees from the nearest corner of the windows to beyond the room.
-function behind(camera, mirror, windows, room) {
+function behind(camera, mirror, windows, room, isBlurred) {
   const image = cameraBehind(camera, mirror), depths = windows.flat().map(x => dot(image.forward, minus(x, image.eye)));
   // What is blurred takes from beside the picture, too.
-  if (mirror.rough) image.half += Math.min(1, 2 * mirror.alpha * (1 + image.half ** 2));
+  if (isBlurred) image.half += Math.min(1, 2 * mirror.alpha * (1 + image.half ** 2));
   return { ...image, near: Math.max(camera.near, 0.9 * Math.min(...depths)), far: lengthOf(image.eye) + room.size };
 }
 
 /// The room itself.
 function rootWorld(camera) {
-  return { camera, mirror: null, cones: [conePlanes(camera.eye, cornersOf(camera))], throughput: 1, depth: 0, asides: 0,
+  return { camera, mirror: null, windows: null, cones: [conePlanes(camera.eye, cornersOf(camera))], throughput: 1, depth: 0, asides: 0,
     rectangle: [0, 0, 1, 1], children: [] };
 }
 
-/// At most `most` worlds, first those with fewer mirrors. `followed` says of which mirrors.
-function visibleWorlds(room, camera, most, followed) {
+/// Whether mirror a may hide a part of mirror b from the eye, which is before both: a ray meets a first where
+/// a part of a is before b's plane, and of b behind a's.
+function mayHide(a, b) {
+  const [left, bottom, right, top] = a.rectangle, other = b.rectangle, least = 1e-6 * a.camera.far;
+  if (left > other[2] || other[0] > right || bottom > other[3] || other[1] > top) return false;
+  const isSome = (one, { mirror }, side) => one.windows.flat().some(x => side * (dot(mirror.normal, x) - mirror.offset) > least);
+  const hides = (one, two) => isSome(one, two, 1) && isSome(two, one, -1);
+  return hides(a, b) && !(hides(b, a) && nearest(b) < nearest(a)); // of mirrors that cross, the nearer one
+}
+const nearest = ({ camera, windows }) => Math.min(...windows.flat().map(x => lengthOf(minus(x, camera.eye))));
+
+/// Worlds of one parent, those first that others may hide.
+function farthestFirst(worlds) {
+  const left = [...worlds], order = [];
+  while (left.length) order.push(...left.splice(Math.max(0, left.findIndex(b => !left.some(a => a !== b && mayHide(b, a)))), 1));
+  return order;
+}
+
+/// At most `most` worlds, first those with fewer mirrors. `followed` says of which mirrors, `blurs` which of them are
+/// pictures of their own that are blurred.
+function visibleWorlds(room, camera, most, followed, blurs) {
   const root = rootWorld(camera), worlds = [root];
   let cut = 0;
   for (let next = 0; next < worlds.length; ++next) {
@@ -83,15 +110,15 @@ function visibleWorlds(room, camera, most, followed) {
       const throughput = world.throughput * reflectanceSeen(mirror, world.camera.eye, windows);
       if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
       if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
-      const image = behind(world.camera, mirror, windows, room);
+      const isBlurred = blurs(mirror), image = behind(world.camera, mirror, windows, room, isBlurred);
       // What is blurred takes from beyond the window, too.
-      const seen = mirror.rough ? [cornersOf(image)] : windows;
-      const child = { camera: image, mirror, cones: seen.map(w => conePlanes(image.eye, w)), throughput, depth: world.depth + 1,
-        asides: world.asides + (mirror.kind === "pane" || mirror.rough ? 1 : 0),
-        rectangle: mirror.rough ? [0, 0, 1, 1] : rectangleOf(world.camera, windows), children: [] };
+      const seen = isBlurred ? [cornersOf(image)] : windows;
+      const child = { camera: image, mirror, isBlurred, windows: isBlurred ? null : windows, cones: seen.map(w => conePlanes(image.eye, w)),
+        throughput, depth: world.depth + 1, asides: world.asides + (mirror.kind === "pane" || isBlurred ? 1 : 0),
+        rectangle: isBlurred ? [0, 0, 1, 1] : rectangleOf(world.camera, windows), children: [] };
       world.children.push(child);
       worlds.push(child);
     }
   }
-  return { root, count: worlds.length, cut, depth: Math.max(...worlds.map(world => world.depth)) };
+  return { all: worlds, root, count: worlds.length, cut, depth: Math.max(...worlds.map(world => world.depth)) };
 }
