@@ -225,7 +225,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniform1f(at.skyScale, data.sky ? data.sky.brightness : 1);
     gl.uniform2fv(at.turned, data.sky ? data.sky.turned : [1, 0]);
     ["looks", "sky", "probes", "mirrored", "falseScale"].forEach((name, unit) => gl.uniform1i(at[name], unit));
-    if (room.needs.sheets) gl.uniform1iv(at["sheets[0]"], Array.from({ length: room.needs.sheets }, (_, k) => firstSheet + k));
+    if (at["sheets[0]"]) gl.uniform1iv(at["sheets[0]"], Array.from({ length: mostSheets }, (_, k) => firstSheet + k));
     bind(0, looks);
     bind(1, textures.sky ? textures.sky.texture : black);
     bind(2, probePictures, gl.TEXTURE_2D_ARRAY);

@@ -38,6 +38,12 @@ function groupSheets(batches) {
   return groups;
 }
 
+/// The units of textures by what they are for.
+function sheetsOf(data) {
+  const units = (which, has) => [...new Set(data.batches.filter(has).map(batch => batch.group.units.indexOf(batch[which])))].filter(unit => unit >= 0);
+  return { colours: units(1, () => true), emissions: units(2, () => true), holes: units(1, batch => batch[0] !== sections.single && data.looks.some(look => look.cutoff >= 0)) };
+}
+
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
 /// The box around a batch, a little larger than it.
@@ -98,7 +104,7 @@ function readRoom(data, tables) {
   // Only mirrors show what is black from behind.
   room.backs = room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0;
   room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0,
-    sky: Boolean(data.sky), sheets: Math.max(0, ...groups.map(group => group.units.length)) };
+    sky: Boolean(data.sky), sheets: sheetsOf(data) };
   return room;
 }
 

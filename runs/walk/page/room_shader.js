@@ -69,16 +69,19 @@ vec3 skyLight(vec3 d) {
 uniform vec3 background;
 vec3 skyLight(vec3 d) { return background; }`;
 
-/// The texel of one of so many textures, white of none. Loops of one step, since software that draws goes past loops,
-/// but by way of all branches.
-const sheetAt = count => count ? `
-uniform sampler2D sheets[${count}];
-vec4 sheetAt(int unit, vec2 at, vec2 dx, vec2 dy) {
+/// The texel of one of the textures, white of none. All corners of a triangle have the same one. Software that draws looks
+/// all of them up, so each is asked for what some surface has it for: colour, emission, holes.
+const sheetAt = ({ colours, emissions, holes }) => {
+  const units = [...colours, ...emissions, ...holes], lookUp = (name, of, how) => `
+vec4 ${name}(int unit, vec2 at) {
   vec4 texel = vec4(1.0);
-${Array.from({ length: count }, (_, k) => `  for (int k = unit; k == ${k}; k = -1) texel = textureGrad(sheets[${k}], at, dx, dy);`).join("\n")}
+${of.map(k => `  if (unit == ${k}) texel = ${how(`sheets[${k}]`)};`).join("\n")}
   return texel;
-}` : `
-vec4 sheetAt(int unit, vec2 at, vec2 dx, vec2 dy) { return vec4(1.0); }`;
+}`;
+  return (units.length ? `uniform sampler2D sheets[${1 + Math.max(...units)}];` : "")
+    + lookUp("colourAt", colours, sheet => `texture(${sheet}, at)`) + lookUp("emissionAt", emissions, sheet => `texture(${sheet}, at)`)
+    + lookUp("sharpAt", holes, sheet => `textureLod(${sheet}, at, 0.0)`);
+};
 
 /// What the middles of bodies see, as six squares of a cube to each (probes.js): the picture along d, as means of 2^level
 /// texels. Beyond the middles of a square's outer texels it is what they are.
@@ -262,9 +265,9 @@ void main() {
   if (look == ${looksBeside.back}) { result = vec4(0.0, 0.0, 0.0, tells == ${alphas.distance} ? min(distance(place, eye), 6e4) : 1.0); return; }
   vec4 first = NUMBERS(0), second = NUMBERS(1), third = NUMBERS(2);
   int kind = int(third.w);
-  vec4 texel = sheetAt(units.x, onTextures.xy, dFdx(onTextures.xy), dFdy(onTextures.xy));
+  vec4 texel = colourAt(units.x, onTextures.xy);
   float alpha = first.w * colour.a * texel.a;
-  if (second.w >= 0.0 && first.w * colour.a * sheetAt(units.x, onTextures.xy, vec2(0.0), vec2(0.0)).a < second.w) discard;
+  if (second.w >= 0.0 && first.w * colour.a * sharpAt(units.x, onTextures.xy).a < second.w) discard;
   vec4 seen = isFollowed == 0 ? vec4(0.0) : texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0);
   seen.rgb /= max(seen.a, 0.01); // the mean of what windows cover of the pixel
   vec3 towards = normalize(place - eye), face = normalize(cross(dFdx(place), dFdy(place)));
@@ -278,7 +281,7 @@ void main() {
     result = vec4(lit ? code : seen.rgb, tells == ${alphas.straight} ? 0.0 : 1.0);
     return;
   }
-  vec3 radiance = third.rgb * sheetAt(units.y, onTextures.zw, dFdx(onTextures.zw), dFdy(onTextures.zw)).rgb;
+  vec3 radiance = third.rgb * emissionAt(units.y, onTextures.zw).rgb;
   vec3 field = light * (lightScale / pi);
   vec3 weight = NUMBERS(5).rgb * tint, passedPart = vec3(1.0 - alpha);
   if (kind == ${kinds.coat}) weight = coatReflectance(c);
