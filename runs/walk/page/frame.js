@@ -36,10 +36,10 @@ function makePainter(gl, data, room, textures) {
   /// What the frame draws, in the stream of triangles; before anything is drawn.
   function plan(worlds) {
     stream.begin();
-    for (const world of worlds) {
+    worlds.forEach((world, w) => {
       const runs = room.opaque.filter(run => !options.without || run.node !== options.without.node);
       world.draws = groups.map((group, g) => {
-        if (g === 0) stream.window(world, options);
+        if (g === 0) stream.window(world, options, worlds.length - 1 - w);
         runs.filter(run => run.group === group).forEach(run => addRun(world, run));
         if (g === 0 && world.depth > 0 && room.backs > 0)
           for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
@@ -51,7 +51,7 @@ function makePainter(gl, data, room, textures) {
         child.surface = { group: child.mirror.runs[0].group, ...stream.segment() };
       }
       world.panes = options.falseColours ? [] : panesOf(world);
-    }
+    });
     stream.end();
   }
   function addRun(world, run, add = stream.add) {
@@ -70,7 +70,7 @@ function makePainter(gl, data, room, textures) {
       set.runs.push(run);
       set.isGrey = set.isGrey && run.isGrey;
       set.rectangles.push(rectangle);
-      set.children.push(...world.children.filter(c => c.mirror.number === run.mirror));
+      set.children.push(...world.children.filter(c => c.mirror.number === run.mirror && !set.children.includes(c)));
     }
     return sets.map(set => {
       set.runs.forEach(run => addRun(world, run));
@@ -78,7 +78,7 @@ function makePainter(gl, data, room, textures) {
     });
   }
 
-  /// `onto`: the place of the picture, what the stencil has of this world, and what alpha tells.
+  /// Onto a place's picture: the world's mark in the stencil, and what alpha tells.
   function useWorld(world, { place, mark, tells }) {
     const { camera, mirror } = world, target = bindTarget(place);
     gl.bindVertexArray(array);

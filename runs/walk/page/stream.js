@@ -3,8 +3,8 @@
 // one another by the graphics card.
 "use strict";
 
-/// Points of windows in a frame. Beyond that many a world's windows are as one, and then not bounded.
-const mostWindowPoints = 8192;
+/// Points of windows in a frame. Where they do not fit beside what the worlds to come need, a world's windows are as one.
+const mostWindowPoints = 32768, pointsOfOne = 16;
 
 /// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows.
 function placesBeside({ tables, backs }) {
@@ -62,12 +62,12 @@ function makeStream(gl, room, positions) {
     else ranges.push({ first, number });
     count += number;
   }
-  /// What is seen of a world: backs of triangles there, so that they mark the stencil.
-  function window(world, size) {
+  /// What is seen of a world, of so many still to come: backs of triangles there, so that they mark the stencil.
+  function window(world, size, toCome) {
     let polygons = windowsOnScreen(world, size);
-    const left = mostWindowPoints - points.length / 3, fits = () => polygons.reduce((sum, p) => sum + p.length, 0) <= left;
-    if (!fits()) polygons = [hullOf(polygons.flat())];
-    if (!fits()) polygons = [];
+    const left = mostWindowPoints - points.length / 3 - pointsOfOne * toCome;
+    if (polygons.reduce((sum, p) => sum + p.length, 0) > left) polygons = [hullOf(polygons.flat())];
+    if (polygons[0].length > left) polygons = windowsOnScreen({ windows: null }, size);
     for (const polygon of polygons) {
       const base = places.window + points.length / 3, first = fans.length / 3;
       for (const [x, y] of polygon) points.push(x, y, 1);
