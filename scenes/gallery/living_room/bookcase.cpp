@@ -27,7 +27,8 @@ Outline binding_outline(const Book& book) {
     std::vector<Vec2> points{{half - inset, -book.depth}};
     for (int k = 0; k <= arc; ++k) {
       const double angle = std::numbers::pi * k / arc;
-      points.emplace_back((half - inset) * std::cos(angle), (bulge - inset) * std::sin(angle) - bulge);
+      points.emplace_back((half - inset) * std::cos(angle),
+                          (bulge - inset) * std::sin(angle) - bulge);
     }
     points.emplace_back(-half + inset, -book.depth);
     return points;
@@ -97,15 +98,15 @@ Mesh pages(const Book& book) {
 static std::vector<Mesh> boards_of_case(double width, double height, double depth, int shelves) {
   constexpr double plank = 0.025, gap = 0.0005;
   const double x = 0.5 * width;
-  std::vector<Mesh> boards{plain_box({-x, 0.0, 0.0}, {-x + plank, height, depth}),
-                           plain_box({x - plank, 0.0, 0.0}, {x, height, depth}),
-                           plain_box({-x - 0.02, height + gap, -0.004},
-                                     {x + 0.02, height + 0.03, depth + 0.02}),
-                           plain_box({-x + plank + gap, 0.08, 0.0}, {x - plank - gap, height - gap, 0.01})};
+  std::vector<Mesh> boards{
+      plain_box({-x, 0.0, 0.0}, {-x + plank, height, depth}),
+      plain_box({x - plank, 0.0, 0.0}, {x, height, depth}),
+      plain_box({-x - 0.02, height + gap, -0.004}, {x + 0.02, height + 0.03, depth + 0.02}),
+      plain_box({-x + plank + gap, 0.08, 0.0}, {x - plank - gap, height - gap, 0.01})};
   for (int k = 0; k < shelves; ++k) {
     const double y = 0.055 + k * (height - 0.08) / shelves;
-    boards.push_back(plain_box({-x + plank + gap, y, 0.01 + gap},
-                               {x - plank - gap, y + plank, depth - 0.004}));
+    boards.push_back(
+        plain_box({-x + plank + gap, y, 0.01 + gap}, {x - plank - gap, y + plank, depth - 0.004}));
   }
   return boards;
 }
@@ -113,7 +114,8 @@ static std::vector<Mesh> boards_of_case(double width, double height, double dept
 void add_bookcase(Stage& stage, const std::string& name, const Place& place, std::uint64_t seed) {
   constexpr double width = 1.3, height = 2.1, depth = 0.3;
   constexpr int shelves = 6;
-  stage.add(name, dark_wood(), placed(merged(boards_of_case(width, height, depth, shelves)), place));
+  stage.add(name, dark_wood(),
+            placed(merged(boards_of_case(width, height, depth, shelves)), place));
 
   std::uint64_t k = seed;
   for (int shelf = 0; shelf < shelves; ++shelf) {

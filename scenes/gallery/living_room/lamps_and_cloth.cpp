@@ -17,9 +17,10 @@ static Paint thin_cloth(const std::string& name, const Rgb& reflectance, double 
 }
 
 void add_floor_lamp(Stage& stage, const Place& place) {
-  const std::vector<Vec2> post{{0.0, 0.0},    {0.13, 0.0},   {0.13, 0.0},    {0.135, 0.008},
-                               {0.12, 0.018}, {0.03, 0.028}, {0.012, 0.05},  {0.011, 0.6},
-                               {0.018, 0.62}, {0.011, 0.64}, {0.011, 1.42},  {0.011, 1.42}, {0.0, 1.42}};
+  const std::vector<Vec2> post{{0.0, 0.0},    {0.13, 0.0},   {0.13, 0.0},   {0.135, 0.008},
+                               {0.12, 0.018}, {0.03, 0.028}, {0.012, 0.05}, {0.011, 0.6},
+                               {0.018, 0.62}, {0.011, 0.64}, {0.011, 1.42}, {0.011, 1.42},
+                               {0.0, 1.42}};
   stage.add("floor-lamp", diffuse("brass", {0.5, 0.38, 0.18}),
             placed(turned_body(Point3(0.0), rounded_profile(post, 8), 48), place));
   // A cone without lids, its front outwards.
@@ -34,7 +35,8 @@ void add_floor_lamp(Stage& stage, const Place& place) {
 }
 
 void add_lantern(Stage& stage, const Point3& hook) {
-  stage.add("lantern", light("lantern", {5.5, 4.6, 3.4}), ball(hook - Vec3(0.0, 0.6, 0.0), 0.15, 32));
+  stage.add("lantern", light("lantern", {5.5, 4.6, 3.4}),
+            ball(hook - Vec3(0.0, 0.6, 0.0), 0.15, 32));
   const std::vector<Point3> cord{hook - Vec3(0.0, 0.449, 0.0), hook - Vec3(0.0, 0.0005, 0.0)};
   stage.add("cord", diffuse("cord", Rgb(0.1)), tube(cord, 0.004, 0.004, 12));
 }
@@ -67,16 +69,20 @@ void add_standing_mirror(Stage& stage, const Place& place) {
     return placed(turned(std::move(mesh), Point3(0.0), {1.0, 0.0, 0.0}, -4.0), place);
   };
   const Sheet back{Point3(0.0), {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-  stage.add("standing-mirror", mirror("silvered", {0.92, 0.92, 0.91}), lean(panel(sheet, glass, 0.02)));
+  stage.add("standing-mirror", mirror("silvered", {0.92, 0.92, 0.91}),
+            lean(panel(sheet, glass, 0.02)));
   stage.add("standing-mirror-frame", dark_wood(),
-            lean(box_mapped(merged(std::array{frame(sheet, glass, moulding), panel(back, outside, 0.0)}))));
+            lean(box_mapped(
+                merged(std::array{frame(sheet, glass, moulding), panel(back, outside, 0.0)}))));
   std::vector<Mesh> posts;
-  const std::vector<Vec2> profile{{0.0, 0.0},   {0.022, 0.0}, {0.022, 0.0}, {0.028, 0.04}, {0.018, 0.1},
-                                  {0.02, 0.5},  {0.026, 0.6}, {0.02, 0.7},  {0.018, 1.2},  {0.024, 1.26},
-                                  {0.012, 1.29}, {0.02, 1.32}, {0.0, 1.345}};
+  const std::vector<Vec2> profile{{0.0, 0.0},   {0.022, 0.0},  {0.022, 0.0},  {0.028, 0.04},
+                                  {0.018, 0.1}, {0.02, 0.5},   {0.026, 0.6},  {0.02, 0.7},
+                                  {0.018, 1.2}, {0.024, 1.26}, {0.012, 1.29}, {0.02, 1.32},
+                                  {0.0, 1.345}};
   for (const double x : {-0.385, 0.385})
     posts.push_back(turned_body({x, 0.0, -0.05}, rounded_profile(profile, 6), 32));
-  posts.push_back(tube(std::array{Point3(-0.362, 0.07, -0.05), Point3(0.362, 0.07, -0.05)}, 0.014, 0.014, 20));
+  posts.push_back(
+      tube(std::array{Point3(-0.362, 0.07, -0.05), Point3(0.362, 0.07, -0.05)}, 0.014, 0.014, 20));
   stage.add("standing-mirror-posts", diffuse("turned-wood", {0.2, 0.12, 0.07}),
             placed(merged(posts), place));
 }

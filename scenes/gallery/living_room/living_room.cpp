@@ -33,14 +33,14 @@ Mesh wall_around(const Sheet& sheet, const Rect& outer, const Rect& inner) {
 void add_skirting(Stage& stage) {
   constexpr double depth = 0.014, gap = 0.0005, top = 0.09;
   const double across = depth + 2.0 * gap;
-  stage.add("skirting", white,
-            merged(std::array{
-                plain_box({gap, 0.0, gap}, {gap + depth, top, high.z - gap}),
-                plain_box({high.x - gap - depth, 0.0, gap}, {high.x - gap, top, high.z - gap}),
-                plain_box({across, 0.0, gap}, {high.x - across, top, gap + depth}),
-                plain_box({across, 0.0, high.z - gap - depth}, {0.75, top, high.z - gap}),
-                plain_box({1.85, 0.0, high.z - gap - depth},
-                          {high.x - across, top, high.z - gap})}));
+  stage.add(
+      "skirting", white,
+      merged(std::array{
+          plain_box({gap, 0.0, gap}, {gap + depth, top, high.z - gap}),
+          plain_box({high.x - gap - depth, 0.0, gap}, {high.x - gap, top, high.z - gap}),
+          plain_box({across, 0.0, gap}, {high.x - across, top, gap + depth}),
+          plain_box({across, 0.0, high.z - gap - depth}, {0.75, top, high.z - gap}),
+          plain_box({1.85, 0.0, high.z - gap - depth}, {high.x - across, top, high.z - gap})}));
 }
 
 void add_shell(Stage& stage) {
@@ -64,12 +64,14 @@ void add_window(Stage& stage) {
   const double y0 = window.low.y, y1 = window.high.y, middle = 0.5 * (z0 + z1);
   std::vector<Mesh> bars;
   const auto add = [&](double from_y, double to_y, double from_z, double to_z, double depth) {
-    bars.push_back(plain_box({x - depth, from_y + gap, from_z + gap}, {x + depth, to_y - gap, to_z - gap}));
+    bars.push_back(
+        plain_box({x - depth, from_y + gap, from_z + gap}, {x + depth, to_y - gap, to_z - gap}));
   };
   add(y0, y1, z0, z0 + bar, 0.03);
   add(y0, y1, z1 - bar, z1, 0.03);
   add(y0, y1, middle - bar, middle + bar, 0.03);
-  for (const auto& [from, to] : {std::pair(z0 + bar, middle - bar), std::pair(middle + bar, z1 - bar)}) {
+  for (const auto& [from, to] :
+       {std::pair(z0 + bar, middle - bar), std::pair(middle + bar, z1 - bar)}) {
     add(y0, y0 + bar, from, to, 0.03);
     add(y1 - bar, y1, from, to, 0.03);
     const double half = 0.5 * (from + to), thin = 0.012;
@@ -92,19 +94,17 @@ void add_wall_mirror(Stage& stage) {
   stage.add("wall-mirror-frame", diffuse("gilt", {0.55, 0.4, 0.17}),
             frame(back, glass, {0.08, 0.045, 0.02}));
   stage.add("wall-mirror-bead", diffuse("gilt", {0.55, 0.4, 0.17}),
-            merged(std::array{
-                rounded_box({1.625, 2.265, 0.046}, {3.775, 2.335, 0.07}, 0.0115, 2),
-                rounded_box({1.625, 1.045, 0.046}, {3.775, 1.115, 0.07}, 0.0115, 2),
-                rounded_box({1.625, 1.12, 0.046}, {1.695, 2.26, 0.07}, 0.0115, 2),
-                rounded_box({3.705, 1.12, 0.046}, {3.775, 2.26, 0.07}, 0.0115, 2)}));
+            merged(std::array{rounded_box({1.625, 2.265, 0.046}, {3.775, 2.335, 0.07}, 0.0115, 2),
+                              rounded_box({1.625, 1.045, 0.046}, {3.775, 1.115, 0.07}, 0.0115, 2),
+                              rounded_box({1.625, 1.12, 0.046}, {1.695, 2.26, 0.07}, 0.0115, 2),
+                              rounded_box({3.705, 1.12, 0.046}, {3.775, 2.26, 0.07}, 0.0115, 2)}));
 }
 
 /// Behind the main camera: seen in the mirrors alone.
 void add_front_and_right(Stage& stage) {
   const Sheet front{{high.x, 0.0, high.z}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   const Rect door{{3.85, 0.002}, {4.75, 2.1}};
-  stage.add("door", diffuse("door", {0.36, 0.42, 0.4}),
-            batten(front, door, 0.0, 0.03));
+  stage.add("door", diffuse("door", {0.36, 0.42, 0.4}), batten(front, door, 0.0, 0.03));
   add_bookcase(stage, "second-bookcase", {{2.6, 0.0, high.z - 0.02}, 180.0}, 5000);
 
   const Sheet right{{high.x, 0.0, low.z}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}};

@@ -100,11 +100,11 @@ void add_plant(Stage& stage, const Place& place, int leaves) {
     blade.texcoords.clear();
     blades.push_back(std::move(blade));
   }
-  const std::vector<Vec2> pot{{0.0, 0.0},    {0.12, 0.0},  {0.12, 0.0},   {0.15, 0.08}, {0.175, 0.3},
-                              {0.178, 0.345}, {0.175, 0.35}, {0.165, 0.345}, {0.16, 0.3},  {0.135, 0.08},
-                              {0.1, 0.02},   {0.0, 0.02}};
-  const std::vector<Vec2> soil{{0.0, 0.03},   {0.1, 0.03},  {0.13, 0.1}, {0.156, 0.318}, {0.15, 0.324},
-                               {0.15, 0.324}, {0.0, 0.326}};
+  const std::vector<Vec2> pot{{0.0, 0.0},   {0.12, 0.0},    {0.12, 0.0},   {0.15, 0.08},
+                              {0.175, 0.3}, {0.178, 0.345}, {0.175, 0.35}, {0.165, 0.345},
+                              {0.16, 0.3},  {0.135, 0.08},  {0.1, 0.02},   {0.0, 0.02}};
+  const std::vector<Vec2> soil{{0.0, 0.03},   {0.1, 0.03},   {0.13, 0.1}, {0.156, 0.318},
+                               {0.15, 0.324}, {0.15, 0.324}, {0.0, 0.326}};
   stage.add("plant-pot", diffuse("terracotta", {0.5, 0.25, 0.15}),
             placed(turned_body(Point3(0.0), rounded_profile(pot, 6), 96), place));
   stage.add("plant-soil", diffuse("soil", {0.08, 0.055, 0.04}),

@@ -54,15 +54,13 @@ Direction gradient(const Superellipsoid& body, const Vec3& d) {
   const auto part = [](double x, double power) {
     return std::copysign(std::pow(std::abs(x), power - 1.0), x);
   };
-  return glm::normalize(Vec3(outer * part(d.x, body.p), part(d.y, body.q), outer * part(d.z, body.p)) /
-                        body.half);
+  return glm::normalize(
+      Vec3(outer * part(d.x, body.p), part(d.y, body.q), outer * part(d.z, body.p)) / body.half);
 }
 
 /// -1 to 1 for i from 0 to n, evenly in the angle.
 double eighth_turns(int i, int n) {
-  return i == 0   ? -1.0
-         : i == n ? 1.0
-                  : std::tan(0.25 * std::numbers::pi * (2 * i - n) / n);
+  return i == 0 ? -1.0 : i == n ? 1.0 : std::tan(0.25 * std::numbers::pi * (2 * i - n) / n);
 }
 
 /// A point of a side of the cube from -1 to 1; u and v run so that the side faces outwards.
@@ -140,8 +138,9 @@ Mesh box_mapped(const Mesh& mesh, double size) {
   for (std::size_t k = 0; k < flat.positions.size(); ++k) {
     const Vec3 n = glm::abs(flat.normals[k]);
     const Point3& p = flat.positions[k];
-    const Vec2 at = n.x >= n.y && n.x >= n.z ? Vec2(p.z, p.y) : n.y >= n.z ? Vec2(p.x, p.z)
-                                                                           : Vec2(p.x, p.y);
+    const Vec2 at = n.x >= n.y && n.x >= n.z ? Vec2(p.z, p.y)
+                    : n.y >= n.z             ? Vec2(p.x, p.z)
+                                             : Vec2(p.x, p.y);
     flat.texcoords.push_back(at / size);
   }
   return flat;
@@ -196,13 +195,13 @@ Mesh tube(std::span<const Point3> line, double first_radius, double last_radius,
   const auto n = static_cast<std::uint32_t>(sides);
   const std::size_t last = line.size() - 1;
   const Vec3 helper = std::abs(glm::normalize(line[last] - line[0]).x) < 0.7 ? Vec3(1.0, 0.0, 0.0)
-                                                                              : Vec3(0.0, 0.0, 1.0);
+                                                                             : Vec3(0.0, 0.0, 1.0);
   for (std::size_t k = 0; k <= last; ++k) {
-    const Direction along =
-        glm::normalize(line[std::min(k + 1, last)] - line[k == 0 ? 0 : k - 1]);
+    const Direction along = glm::normalize(line[std::min(k + 1, last)] - line[k == 0 ? 0 : k - 1]);
     const Direction u = glm::normalize(helper - glm::dot(helper, along) * along);
     const Direction v = glm::cross(along, u);
-    const double radius = glm::mix(first_radius, last_radius, static_cast<double>(k) / static_cast<double>(last));
+    const double radius =
+        glm::mix(first_radius, last_radius, static_cast<double>(k) / static_cast<double>(last));
     for (int i = 0; i < sides; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / sides;
       mesh.positions.push_back(line[k] + radius * (std::cos(angle) * u + std::sin(angle) * v));

@@ -23,7 +23,8 @@ double noise(double x, double y, int nx, int ny, std::uint64_t seed) {
   };
   const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
   const double s = ease(x - fx), t = ease(y - fy);
-  return std::lerp(std::lerp(value(0, 0), value(1, 0), s), std::lerp(value(0, 1), value(1, 1), s), t);
+  return std::lerp(std::lerp(value(0, 0), value(1, 0), s), std::lerp(value(0, 1), value(1, 1), s),
+                   t);
 }
 
 /// A picture whose colours lie on ramps between two colours, 256 / ramps steps each.
@@ -79,8 +80,9 @@ Picture planks() {
 }
 
 Picture wood_grain() {
-  return picture("wood", 256, 128, {{{{84, 50, 30}, {160, 108, 66}}}},
-                 [](double u, double v) { return Shade{0, grain(u, v, 900)}; });
+  return picture("wood", 256, 128, {{{{84, 50, 30}, {160, 108, 66}}}}, [](double u, double v) {
+    return Shade{0, grain(u, v, 900)};
+  });
 }
 
 Picture weave() {
@@ -127,7 +129,8 @@ Picture painting() {
                                                  {{{244, 214, 150}, {255, 240, 206}}}};
   return picture("painting", 256, 256, ramps, [](double u, double v) {
     const double stroke = noise(64.0 * u, 24.0 * v, 64, 24, 8) - 0.5;
-    const double far = 0.52 + 0.06 * std::sin(turn * 1.3 * u + 1.0) + 0.02 * std::sin(turn * 5.0 * u);
+    const double far =
+        0.52 + 0.06 * std::sin(turn * 1.3 * u + 1.0) + 0.02 * std::sin(turn * 5.0 * u);
     const double near = 0.70 - 0.08 * std::sin(turn * 0.8 * u) + 0.015 * std::sin(turn * 7.0 * u);
     if (v > near)
       return Shade{2, 0.9 - 1.6 * (v - near) + 0.7 * stroke};
@@ -142,10 +145,10 @@ Picture painting() {
 Picture book_backs() {
   // Cloth of six colours, and gold.
   const std::vector<std::array<Colour, 2>> ramps{
-      {{{92, 34, 30}, {142, 58, 46}}},   {{{34, 50, 66}, {66, 92, 116}}},
-      {{{48, 66, 46}, {86, 110, 74}}},   {{{176, 158, 124}, {226, 212, 182}}},
-      {{{64, 46, 36}, {110, 82, 60}}},   {{{150, 104, 46}, {196, 144, 74}}},
-      {{{74, 54, 78}, {120, 92, 122}}},  {{{196, 160, 84}, {232, 204, 132}}}};
+      {{{92, 34, 30}, {142, 58, 46}}},  {{{34, 50, 66}, {66, 92, 116}}},
+      {{{48, 66, 46}, {86, 110, 74}}},  {{{176, 158, 124}, {226, 212, 182}}},
+      {{{64, 46, 36}, {110, 82, 60}}},  {{{150, 104, 46}, {196, 144, 74}}},
+      {{{74, 54, 78}, {120, 92, 122}}}, {{{196, 160, 84}, {232, 204, 132}}}};
   return picture("books", 512, 256, ramps, [](double u, double v) {
     const int design = static_cast<int>(book_designs * u);
     const auto seed = static_cast<std::uint64_t>(design);
@@ -156,7 +159,8 @@ Picture book_backs() {
     const bool title = std::abs(v - 0.35) < 0.1 && x > 0.25 && x < 0.75 &&
                        chance(seed * 64 + static_cast<std::uint64_t>(64.0 * v)) > 0.35;
     const double thread = noise(512.0 * u, 128.0 * v, 512, 128, 17);
-    return Shade{(gold || title) && cloth != 3 ? 7 : cloth, 0.35 + 0.4 * chance(seed + 160) + 0.3 * (thread - 0.5)};
+    return Shade{(gold || title) && cloth != 3 ? 7 : cloth,
+                 0.35 + 0.4 * chance(seed + 160) + 0.3 * (thread - 0.5)};
   });
 }
 

@@ -6,11 +6,11 @@
 
 namespace meninas::gallery {
 
-Picture planks();      ///< 8 boards side by side, each 1/8 wide, along v
-Picture wood_grain();  ///< along u
-Picture weave();       ///< threads, light on light
-Picture carpet();      ///< the whole of it, its length along u
-Picture painting();    ///< hills at evening
+Picture planks();     ///< 8 boards side by side, each 1/8 wide, along v
+Picture wood_grain(); ///< along u
+Picture weave();      ///< threads, light on light
+Picture carpet();     ///< the whole of it, its length along u
+Picture painting();   ///< hills at evening
 
 /// Backs of `book_designs` bindings side by side, from the head down.
 Picture book_backs();
