@@ -75,8 +75,7 @@ TEST(SmoothShapes, ARoundedBoxIsItsCoreGrownByTheRadius) {
 TEST(SmoothShapes, ATurnedBodyIsClosedAndItsEdgesAreSharp) {
   const std::vector<Vec2> cylinder{{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.0},
                                    {0.5, 1.0}, {0.5, 1.0}, {0.0, 1.0}};
-  const Mesh mesh =
-      gallery::turned_body(Point3(0.0), gallery::rounded_profile(cylinder, 4), 64);
+  const Mesh mesh = gallery::turned_body(Point3(0.0), gallery::rounded_profile(cylinder, 4), 64);
   EXPECT_EQ(open_edges(mesh), 0U);
   // A regular polygon of 64 sides in place of the circle.
   EXPECT_NEAR(volume(mesh), 32.0 * 0.25 * std::sin(2.0 * std::numbers::pi / 64.0), 1e-9);
@@ -84,15 +83,11 @@ TEST(SmoothShapes, ATurnedBodyIsClosedAndItsEdgesAreSharp) {
     EXPECT_TRUE(std::abs(normal.y) < 1e-9 || std::abs(normal.y) > 1.0 - 1e-9);
 }
 
-TEST(SmoothShapes, TubesAndClothsAreClosedAndFaceOutwards) {
+TEST(SmoothShapes, ATubeIsClosedAndFacesOutwards) {
   const std::vector<Point3> line{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.3, 2.0, 0.0}};
   const Mesh tube = gallery::tube(line, 0.1, 0.05, 16);
   EXPECT_EQ(open_edges(tube), 0U);
   EXPECT_GT(volume(tube), 0.0);
-  const Mesh cloth = gallery::cloth(
-      [](double s, double t) { return Point3(s, t, 0.1 * std::sin(9.0 * s)); }, 0.01, 20, 4);
-  EXPECT_EQ(open_edges(cloth), 0U);
-  EXPECT_GT(volume(cloth), 0.0);
 }
 
 /// Read from the file that the generator would write, which is removed at once.
@@ -112,10 +107,23 @@ TEST(LivingRoom, IsTheSameBytesEachTime) {
 }
 
 TEST(LivingRoom, EveryBodyButClothAndWhatIsLetIntoAWallIsClosed) {
-  const std::set<std::string> open{
-      "back",    "front",  "right",    "ceiling",  "floor",          "left",
-      "reveal",  "door",   "painting", "painting-frame", "wall-mirror", "wall-mirror-frame",
-      "curtain-1", "curtain-2", "lamp-shade", "standing-mirror", "standing-mirror-frame"};
+  const std::set<std::string> open{"back",
+                                   "front",
+                                   "right",
+                                   "ceiling",
+                                   "floor",
+                                   "left",
+                                   "reveal",
+                                   "door",
+                                   "painting",
+                                   "painting-frame",
+                                   "wall-mirror",
+                                   "wall-mirror-frame",
+                                   "curtain-1",
+                                   "curtain-2",
+                                   "lamp-shade",
+                                   "standing-mirror",
+                                   "standing-mirror-frame"};
   for (const auto& part : gallery::living_room().parts) {
     EXPECT_EQ(open_edges(part.mesh) != 0, open.contains(part.name)) << part.name;
     for (const Vec3& normal : part.mesh.normals)

@@ -7,7 +7,7 @@
 
 namespace meninas::gallery {
 
-constexpr double turn = 2.0 * std::numbers::pi;
+static constexpr double circle = 2.0 * std::numbers::pi;
 
 /// Both sides of it receive light and pass some of it on.
 static Paint thin_cloth(const std::string& name, const Rgb& reflectance, double transmission) {
@@ -26,7 +26,7 @@ void add_floor_lamp(Stage& stage, const Place& place) {
   // A cone without lids, its front outwards.
   const auto shade = [](double s, double t) {
     const double radius = std::lerp(0.22, 0.14, t);
-    return Point3(radius * std::sin(turn * s), 1.36 + 0.3 * t, radius * std::cos(turn * s));
+    return Point3(radius * std::sin(circle * s), 1.36 + 0.3 * t, radius * std::cos(circle * s));
   };
   stage.add("lamp-shade", thin_cloth("shade", {0.8, 0.7, 0.52}, 0.45),
             placed(sheet_of(shade, 72, 8), place));
@@ -49,7 +49,7 @@ void add_curtains(Stage& stage, double from, double to) {
     // Folds that open towards the hem; both halves hang outside of the window.
     const auto at = [&](double s, double t) {
       const double depth = 0.028 + 0.02 * (1.0 - t);
-      const double phase = turn * 7.0 * s + 0.5 * std::sin(2.2 * t + 9.0 * s + start);
+      const double phase = circle * 7.0 * s + 0.5 * std::sin(2.2 * t + 9.0 * s + start);
       const double sway = 0.012 * std::sin(3.0 * t + 5.0 * s);
       return Point3(0.135 + depth * std::sin(phase) + sway, 0.025 + 2.46 * t,
                     start - width * s * (1.0 + 0.1 * (1.0 - t)));

@@ -237,39 +237,6 @@ Mesh sheet_of(const SheetFunction& at, int columns, int rows) {
   return smoothed(std::move(mesh));
 }
 
-Mesh cloth(const SheetFunction& at, double thickness, int columns, int rows) {
-  const Mesh middle = sheet_of(at, columns, rows);
-  Mesh front = middle, back = middle;
-  for (std::size_t k = 0; k < middle.positions.size(); ++k) {
-    front.positions[k] += 0.5 * thickness * middle.normals[k];
-    back.positions[k] -= 0.5 * thickness * middle.normals[k];
-    back.normals[k] = -middle.normals[k];
-  }
-  for (auto& triangle : back.triangles)
-    std::swap(triangle[1], triangle[2]);
-
-  // The rim, once round counter-clockwise in (s, t), from the back to the front.
-  std::vector<std::size_t> rim;
-  const auto w = static_cast<std::size_t>(columns), h = static_cast<std::size_t>(rows);
-  for (std::size_t i = 0; i < w; ++i)
-    rim.push_back(i);
-  for (std::size_t j = 0; j < h; ++j)
-    rim.push_back(j * (w + 1) + w);
-  for (std::size_t i = w; i > 0; --i)
-    rim.push_back(h * (w + 1) + i);
-  for (std::size_t j = h; j > 0; --j)
-    rim.push_back(j * (w + 1));
-  std::vector<Mesh> parts{front, back};
-  for (std::size_t k = 0; k < rim.size(); ++k) {
-    const std::size_t a = rim[k], b = rim[(k + 1) % rim.size()];
-    Mesh side = quad(back.positions[a], back.positions[b], front.positions[b], front.positions[a]);
-    side.texcoords = {middle.texcoords[a], middle.texcoords[b], middle.texcoords[b],
-                      middle.texcoords[a]};
-    parts.push_back(smoothed(std::move(side)));
-  }
-  return merged(parts);
-}
-
 Mesh bent(Mesh mesh, const std::function<Point3(const Point3&)>& by) {
   for (auto& position : mesh.positions)
     position = by(position);

@@ -1,4 +1,4 @@
-// Closed bodies with curved sides, and their normals: cushions, turned wood, tubes, cloth.
+// Closed bodies with curved sides, and their normals: cushions, turned wood, tubes; and sheets of cloth.
 //
 // Normals are those of the curved surface, by its equation or as the mean of the faces around a
 // vertex weighted by area (Gouraud 1971). Metres; fronts face outwards.
@@ -53,9 +53,6 @@ Mesh tube(std::span<const Point3> line, double first_radius, double last_radius,
 
 /// A point of a sheet for s and t from 0 to 1.
 using SheetFunction = std::function<Point3(double s, double t)>;
-
-/// A cloth of that thickness about a sheet, closed; `columns` x `rows` quads a side.
-Mesh cloth(const SheetFunction& at, double thickness, int columns, int rows);
 
 /// An open sheet, its front along d/ds x d/dt, with (s, t) as texture coordinates.
 Mesh sheet_of(const SheetFunction& at, int columns, int rows);

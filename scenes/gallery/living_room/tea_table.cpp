@@ -82,7 +82,7 @@ void add_flowers(Stage& stage, const Point3& foot, const Place& place) {
   for (int k = 0; k < 9; ++k) {
     const double angle = 2.0 * std::numbers::pi * (k + 0.2 * chance(k)) / 9.0;
     const Vec3 out{std::cos(angle), 0.0, std::sin(angle)};
-    const double spread = (k % 3 == 0 ? 0.05 : 0.13) + 0.02 * chance(k + 50);
+    const double spread = (k % 3 == 0 ? 0.04 : 0.14) + 0.02 * chance(k + 50);
     const double height = 0.43 + 0.09 * chance(k + 20) + (k % 3 == 0 ? 0.08 : 0.0);
     std::vector<Point3> line;
     for (int i = 0; i <= 16; ++i) {
@@ -91,13 +91,13 @@ void add_flowers(Stage& stage, const Point3& foot, const Place& place) {
       line.push_back(foot + (0.016 + spread * std::pow(above, 1.5)) * out + Vec3(0.0, y, 0.0));
     }
     stems.push_back(tube(line, 0.0025, 0.002, 10));
-    const Point3 centre = line.back() + Vec3(0.0, 0.036, 0.0);
+    const Point3 centre = line.back() + Vec3(0.0, 0.034, 0.0);
     // Twelve lobes round the axis; waves are deepest at the equator.
     blossoms.push_back(
-        bent(superellipsoid({centre, Vec3(0.035), 2.0, 2.0}, 14), [&](const Point3& p) {
+        bent(superellipsoid({centre, Vec3(0.031), 2.0, 2.0}, 14), [&](const Point3& p) {
           const Vec3 r = p - centre;
           const double wave =
-              std::cos(9.0 * std::atan2(r.z, r.x)) * (1.0 - std::pow(r.y / 0.035, 2.0));
+              std::cos(9.0 * std::atan2(r.z, r.x)) * (1.0 - std::pow(r.y / 0.031, 2.0));
           return centre + (1.0 + 0.12 * wave) * Vec3(1.0, 0.8, 1.0) * r;
         }));
   }
