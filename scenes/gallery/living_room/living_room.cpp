@@ -94,10 +94,10 @@ void add_wall_mirror(Stage& stage) {
   stage.add("wall-mirror-frame", diffuse("gilt", {0.55, 0.4, 0.17}),
             frame(back, glass, {0.08, 0.045, 0.02}));
   stage.add("wall-mirror-bead", diffuse("gilt", {0.55, 0.4, 0.17}),
-            merged(std::array{rounded_box({1.625, 2.265, 0.046}, {3.775, 2.335, 0.07}, 0.0115, 2),
-                              rounded_box({1.625, 1.045, 0.046}, {3.775, 1.115, 0.07}, 0.0115, 2),
-                              rounded_box({1.625, 1.12, 0.046}, {1.695, 2.26, 0.07}, 0.0115, 2),
-                              rounded_box({3.705, 1.12, 0.046}, {3.775, 2.26, 0.07}, 0.0115, 2)}));
+            merged(std::array{rounded_box({1.625, 2.265, 0.046}, {3.775, 2.335, 0.07}, 0.01, 2),
+                              rounded_box({1.625, 1.045, 0.046}, {3.775, 1.115, 0.07}, 0.01, 2),
+                              rounded_box({1.625, 1.12, 0.046}, {1.695, 2.26, 0.07}, 0.01, 2),
+                              rounded_box({3.705, 1.12, 0.046}, {3.775, 2.26, 0.07}, 0.01, 2)}));
 }
 
 /// Behind the main camera: seen in the mirrors alone.

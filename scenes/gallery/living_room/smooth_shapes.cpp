@@ -1,5 +1,6 @@
 #include "scenes/gallery/living_room/smooth_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -150,6 +151,17 @@ Mesh plain_box(const Point3& low, const Point3& high, double size) {
   return box_mapped(box(low, high), size);
 }
 
+/// The slope at a point of a profile: zero at an extreme, and never so steep that the curve overshoots.
+static Vec2 slope_at(const Vec2& before, const Vec2& at, const Vec2& after) {
+  Vec2 slope = 0.5 * (after - before);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double in = at[axis] - before[axis], out = after[axis] - at[axis];
+    const double most = in * out > 0.0 ? 3.0 * std::min(std::abs(in), std::abs(out)) : 0.0;
+    slope[axis] = std::clamp(slope[axis], -most, most);
+  }
+  return slope;
+}
+
 std::vector<Vec2> rounded_profile(std::span<const Vec2> points, int steps) {
   std::vector<Vec2> profile;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -158,18 +170,15 @@ std::vector<Vec2> rounded_profile(std::span<const Vec2> points, int steps) {
       continue;
     const bool starts = k == 0 || points[k - 1] == b;
     const bool ends = k + 2 == points.size() || points[k + 2] == c;
-    const Vec2 a = starts ? b : points[k - 1];
-    const Vec2 d = ends ? c : points[k + 2];
-    for (int step = 0; step < steps; ++step) {
-      const double t = static_cast<double>(step) / steps;
-      Vec2 at = 0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * t * t +
-                       (3.0 * b - a - 3.0 * c + d) * t * t * t);
-      if (step == 0)
-        at = b;
-      at.x = std::max(at.x, k == 0 && step == 0 ? b.x : 1e-3);
-      if (step == 0 && starts && k != 0)
-        profile.push_back(at); // an edge: the ring is there twice
-      profile.push_back(at);
+    const Vec2 first = starts ? c - b : slope_at(points[k - 1], b, c);
+    const Vec2 last = ends ? c - b : slope_at(b, c, points[k + 2]);
+    if (starts && k != 0)
+      profile.push_back(b); // an edge: the ring is there twice
+    profile.push_back(b);
+    for (int step = 1; step < steps; ++step) {
+      const double t = static_cast<double>(step) / steps; // Hermite's cubic
+      profile.push_back(b + t * t * (3.0 - 2.0 * t) * (c - b) + t * (1.0 - t) * (1.0 - t) * first -
+                        t * t * (1.0 - t) * last);
     }
   }
   profile.push_back(points.back());

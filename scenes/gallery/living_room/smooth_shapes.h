@@ -41,8 +41,8 @@ Mesh plain_box(const Point3& low, const Point3& high, double size = 0.5);
 /// Flat faces apart, each textured along its own plane's axes.
 Mesh box_mapped(const Mesh& mesh, double size = 0.5);
 
-/// Smooth between the points of a profile of (radius, height), by Catmull and Rom's spline (1974)
-/// in `steps` a span; a point that is there twice is an edge.
+/// Smooth between the points of a profile of (radius, height), by cubics that do not overshoot
+/// (Fritsch, Carlson 1980) in `steps` a span; a point that is there twice is an edge.
 std::vector<Vec2> rounded_profile(std::span<const Vec2> points, int steps);
 
 /// A surface of revolution with normals; its profile ends on the axis, or at what it stands on.
