@@ -83,6 +83,18 @@ TEST(SmoothShapes, ATurnedBodyIsClosedAndItsEdgesAreSharp) {
     EXPECT_TRUE(std::abs(normal.y) < 1e-9 || std::abs(normal.y) > 1.0 - 1e-9);
 }
 
+TEST(SmoothShapes, ProfilesStayBetweenTheirPoints) {
+  // A wide foot that runs into a thin post: a spline of even steps would cross the axis.
+  const std::vector<Vec2> points{
+      {0.13, 0.0}, {0.12, 0.02}, {0.03, 0.03}, {0.012, 0.05}, {0.011, 0.6}};
+  const auto profile = gallery::rounded_profile(points, 8);
+  ASSERT_EQ(profile.size(), 33U);
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+    EXPECT_GE(profile[k].x, profile[k + 1].x);
+    EXPECT_LE(profile[k].y, profile[k + 1].y);
+  }
+}
+
 TEST(SmoothShapes, ATubeIsClosedAndFacesOutwards) {
   const std::vector<Point3> line{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.3, 2.0, 0.0}};
   const Mesh tube = gallery::tube(line, 0.1, 0.05, 16);
