@@ -41,7 +41,7 @@ endif()
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
   PATTERN "*.sh" EXCLUDE PATTERN "notes" EXCLUDE)
 install(DIRECTORY scenes/gallery DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes COMPONENT program
-  FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "README.md" PATTERN "generator" EXCLUDE PATTERN "blender" EXCLUDE)
+  FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "README.md" PATTERN "generator" EXCLUDE PATTERN "living_room" EXCLUDE PATTERN "blender" EXCLUDE)
 
 # The library is what its one header says: nothing of what it is built from is installed.
 install(FILES library/meninas.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meninas COMPONENT library)

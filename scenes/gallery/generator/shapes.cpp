@@ -215,6 +215,8 @@ Mesh merged(std::span<const Mesh> meshes) {
     all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
     for (const auto& [a, b, c] : mesh.triangles)
       all.triangles.push_back({first + a, first + b, first + c});
+    all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
+    all.texcoords.insert(all.texcoords.end(), mesh.texcoords.begin(), mesh.texcoords.end());
   }
   return all;
 }
@@ -229,11 +231,14 @@ Mesh turned(Mesh mesh, const Point3& centre, const Direction& axis, double degre
   const auto angle = glm::radians(degrees);
   const auto c = std::cos(angle);
   const auto s = std::sin(angle);
-  for (auto& position : mesh.positions) {
-    // Rodrigues' rotation formula.
-    const auto r = position - centre;
-    position = centre + c * r + s * glm::cross(axis, r) + (1.0 - c) * glm::dot(axis, r) * axis;
-  }
+  // Rodrigues' rotation formula.
+  const auto about_axis = [&](const Vec3& r) {
+    return c * r + s * glm::cross(axis, r) + (1.0 - c) * glm::dot(axis, r) * axis;
+  };
+  for (auto& position : mesh.positions)
+    position = centre + about_axis(position - centre);
+  for (auto& normal : mesh.normals)
+    normal = about_axis(normal);
   return mesh;
 }
 

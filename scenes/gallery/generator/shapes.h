@@ -77,6 +77,7 @@ Mesh lathe(const Point3& foot, std::span<const Vec2> profile, int sides);
 /// Corners of a regular polygon in (x, z), a side of it facing +z.
 std::vector<Vec2> regular(const Vec2& centre, double radius, int sides);
 
+/// Normals and texture coordinates are kept where all have them, else they are to be left out before.
 Mesh merged(std::span<const Mesh> meshes);
 Mesh moved(Mesh mesh, const Vec3& by);
 Mesh turned(Mesh mesh, const Point3& centre, const Direction& axis, double degrees);

@@ -40,7 +40,8 @@ struct Paint {
   double roughness = 1.0;
   Picture picture =
       {}; ///< a factor of `color`, if it has texels; cut out and seen from both sides if one of its colours is transparent
-  double thickness = 0.0; ///< of a solid, about, metres
+  double thickness = 0.0;    ///< of a solid, about, metres
+  double transmission = 0.0; ///< share of a cloth's light that it passes evenly to its other side
 };
 
 inline Paint diffuse(std::string name, Rgb reflectance) { return {std::move(name), reflectance}; }
@@ -73,6 +74,7 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Vec2> texcoords = {}; ///< by position, or none
   std::vector<Rgb> colors = {};     ///< likewise: linear factors of the paint's
+  std::vector<Vec3> normals = {};   ///< likewise: of the curved surface that the faces stand for
 };
 
 /// Becomes one glTF node, which is what a user asks for by name.
