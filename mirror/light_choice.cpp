@@ -205,8 +205,9 @@ struct Chooser {
       place = static_cast<std::size_t>(std::upper_bound(begin + 1, begin + node.count, at) -
                                        tree.sent.data() - 1);
       const Vec3& flux = tree.flux[place];
-      const double cosine = glm::dot(flux, towards) / glm::length(flux);
-      const bool is_chosen = 0x1p-32 * hash(seed, 2 * k + 1) < cosine;
+      const double cosine = glm::dot(flux, towards); // times the length of flux
+      const double least = 0x1p-32 * hash(seed, 2 * k + 1);
+      const bool is_chosen = cosine > 0.0 && least * least * glm::dot(flux, flux) < cosine * cosine;
       if (!is_chosen && (cosine <= 0.0 || facing != nobody))
         continue;
       if (!faces(place, x))
@@ -219,12 +220,9 @@ struct Chooser {
   }
 
   /// Emitters that stand for the nodes seen from afar, at even steps along what these bring:
-  /// `choice.afar` where they bring all of the light, or a quarter as many as there are nodes.
+  /// `choice.afar` where they bring all of the light.
   void take_afar(const LightChoice& choice, double afar, double all) {
-    const double asked = static_cast<double>(choice.afar) * (afar / all);
-    const double nodes = static_cast<double>(work.afar.size());
-    const double count = std::ceil(std::max(asked, nodes / 4.0));
-    const double step = afar / count;
+    const double step = afar / std::ceil(static_cast<double>(choice.afar) * (afar / all));
     const auto seed = static_cast<std::uint32_t>(0x1p32 * choice.offset);
     double sum = 0.0, next = choice.offset * step;
     for (const CutNode& at : work.afar) {
@@ -255,8 +253,7 @@ struct Chooser {
     const auto leaves = std::ranges::count_if(
         work.cut, [&](const CutNode& node) { return is_leaf(node.node); });
     const double worth =
-        rest / all * (static_cast<double>(choice.afar) + static_cast<double>(work.afar.size()) / 4.0) +
-        2.0 * static_cast<double>(leaves);
+        rest / all * static_cast<double>(choice.afar) + 0.5 * static_cast<double>(leaves);
     return std::clamp(std::ceil(worth), 1.0, static_cast<double>(choice.most));
   }
 

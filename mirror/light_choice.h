@@ -32,7 +32,7 @@ namespace meninas {
 struct LightChoice {
   std::size_t most = 256; ///< K; as many or fewer images are all computed
   double offset = 0.5;    ///< in [0, 1): of the even steps
-  std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters in all at least
+  std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters where they bring all of the light
   std::uint64_t area = 0; ///< above 0: a name of the area whose point x is
   double extent = 0.0;    ///< largest distance of two points of it
   bool same_point = false; ///< as the choice before, by the same workspace: only the steps begin elsewhere
