@@ -15,7 +15,7 @@
 //
 //   H = tau I(omega) cos / d^2     (emitters.h),
 //
-// off by about a third of the square of radius over distance, and without the noise of a choice
+// off by up to the square of radius over distance, and without the noise of a choice
 // (lightcuts: Walter et al. 2005). For shadow rays some of its emitters stand for it,
 // chosen by power times cosine.
 //
@@ -25,7 +25,7 @@
 // they ask its nodes alone what they bring.
 #pragma once
 
-#include "mirror/window_cones.h"
+#include "mirror/light_estimates.h"
 
 namespace meninas {
 
@@ -42,6 +42,7 @@ struct LightChoice {
 struct LightChoiceWorkspace {
   SeenWorlds seen;
   WindowCones cones;
+  std::vector<LampView> views; ///< of the worlds in `seen`
   struct CutNode {
     double estimate;     ///< s of the emitters below, brightest channel
     std::uint32_t world; ///< index into `seen`
