@@ -112,6 +112,8 @@ void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorks
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
+  work.sampled.clear();
+  work.dim.clear();
   work.by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
@@ -195,8 +197,6 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
     sum.entering += light.emitters[image.emitter].area_light != no_area_light ? arrived : Rgb(0.0);
   };
   // One that stands for others of its group has them to share its shadow rays with: it takes one.
-  work.sampled.clear();
-  work.dim.clear();
   const double all =
       stand_for_others(work) ? std::accumulate(work.brought.begin(), work.brought.end(), 0.0) : 0.0;
   for (const std::uint32_t k : work.order) {
