@@ -1,6 +1,5 @@
 #include "mirror/light_choice.h"
 
-#include "mirror/light_estimates.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -22,9 +21,9 @@ struct Chooser {
   std::vector<VirtualLight>& lights;
   LightEstimates estimates{worlds, tree, observer, work.cones};
 
-  const SeenWorld& seen_world(std::uint32_t world) const { return work.seen.worlds[world]; }
+  const LampView& view(std::uint32_t world) const { return work.views[world]; }
   double estimate(std::uint32_t world, std::uint32_t node) const {
-    return estimates.estimate(seen_world(world), node);
+    return estimates.estimate(view(world), node);
   }
   bool is_leaf(std::uint32_t node) const { return tree.nodes[node].second_child == 0; }
   std::array<std::uint32_t, 2> children(std::uint32_t node) const {
@@ -63,9 +62,8 @@ struct Chooser {
 
   /// Puts a node where it belongs; returns its estimate.
   double add(std::uint32_t world, std::uint32_t node, bool from_afar) {
-    const SeenWorld& seen = seen_world(world);
-    if (from_afar && !is_leaf(node) && estimates.is_small(seen, node) &&
-        estimates.is_wholly_seen(seen, node))
+    if (from_afar && !is_leaf(node) && estimates.is_small(view(world), node) &&
+        estimates.is_wholly_seen(view(world), node))
       return add_afar(world, node);
     const CutNode next{estimate(world, node), world, node};
     if (next.estimate <= 0.0)
@@ -80,7 +78,7 @@ struct Chooser {
   }
 
   double add_afar(std::uint32_t world, std::uint32_t node) {
-    const double brought = estimates.light_from_afar(seen_world(world), node);
+    const double brought = estimates.light_from_afar(view(world), node);
     if (brought > 0.0 || estimates.extent > 0.0)
       work.afar.push_back({brought, world, node});
     return brought;
@@ -131,7 +129,7 @@ struct Chooser {
       const auto nodes = std::ranges::equal_range(work.of_area, seen.world, {},
                                                   &LightChoiceWorkspace::AreaNode::world);
       for (const auto& at : nodes) {
-        if (at.small && estimates.is_wholly_seen(seen, at.node)) {
+        if (at.small && estimates.is_wholly_seen(view(w), at.node)) {
           add_afar(w, at.node);
           continue;
         }
@@ -205,8 +203,9 @@ struct Chooser {
       place = static_cast<std::size_t>(std::upper_bound(begin + 1, begin + node.count, at) -
                                        tree.sent.data() - 1);
       const Vec3& flux = tree.flux[place];
-      const double cosine = glm::dot(flux, towards) / glm::length(flux);
-      const bool is_chosen = 0x1p-32 * hash(seed, 2 * k + 1) < cosine;
+      const double cosine = glm::dot(flux, towards); // times the length of flux
+      const double least = 0x1p-32 * hash(seed, 2 * k + 1);
+      const bool is_chosen = cosine > 0.0 && least * least * glm::dot(flux, flux) < cosine * cosine;
       if (!is_chosen && (cosine <= 0.0 || facing != nobody))
         continue;
       if (!faces(place, x))
@@ -219,12 +218,9 @@ struct Chooser {
   }
 
   /// Emitters that stand for the nodes seen from afar, at even steps along what these bring:
-  /// `choice.afar` where they bring all of the light, or a quarter as many as there are nodes.
+  /// `choice.afar` where they bring all of the light.
   void take_afar(const LightChoice& choice, double afar, double all) {
-    const double asked = static_cast<double>(choice.afar) * (afar / all);
-    const double nodes = static_cast<double>(work.afar.size());
-    const double count = std::ceil(std::max(asked, nodes / 4.0));
-    const double step = afar / count;
+    const double step = afar / std::ceil(static_cast<double>(choice.afar) * (afar / all));
     const auto seed = static_cast<std::uint32_t>(0x1p32 * choice.offset);
     double sum = 0.0, next = choice.offset * step;
     for (const CutNode& at : work.afar) {
@@ -238,14 +234,12 @@ struct Chooser {
   /// One of the node's emitters as an image that brings that much.
   void stand_for(const CutNode& at, double brought, std::uint32_t seed) {
     const EmitterNode& node = tree.nodes[at.node];
-    const WorldId id = work.seen.worlds[at.world].world;
-    const MirrorWorld& world = worlds.worlds[index(id)];
-    const Vec3 to = apply(world.image, node.middle) - observer.position;
-    const std::uint32_t e = emitter_of(node, node.middle - to * world.image.linear, seed);
-    const Rgb &tau = world.throughput, &radiosity = emitters[e].radiosity;
-    add_whole_image(worlds, emitters, id, e, lights);
-    lights.back().afar = brought / (std::max({tau.r, tau.g, tau.b}) *
-                                    std::max({radiosity.r, radiosity.g, radiosity.b}));
+    const LampView& from = view(at.world);
+    const std::uint32_t e = emitter_of(node, from.position, seed);
+    const Rgb& radiosity = emitters[e].radiosity;
+    add_whole_image(worlds, emitters, from.seen.world, e, lights);
+    lights.back().afar =
+        brought / (from.throughput * std::max({radiosity.r, radiosity.g, radiosity.b}));
   }
 
   /// How many images are computed of those that are not seen from afar.
@@ -255,8 +249,7 @@ struct Chooser {
     const auto leaves = std::ranges::count_if(
         work.cut, [&](const CutNode& node) { return is_leaf(node.node); });
     const double worth =
-        rest / all * (static_cast<double>(choice.afar) + static_cast<double>(work.afar.size()) / 4.0) +
-        2.0 * static_cast<double>(leaves);
+        rest / all * static_cast<double>(choice.afar) + 0.5 * static_cast<double>(leaves);
     return std::clamp(std::ceil(worth), 1.0, static_cast<double>(choice.most));
   }
 
@@ -318,8 +311,10 @@ void sample_light_tree(const EmitterChoice& of, const Observer& observer, const 
     all_lights(worlds, emitters, work.seen, observer, lights);
     return;
   }
-  if (!choice.same_point)
+  if (!choice.same_point) {
     find_cones(work.seen, observer.position, work.cones);
+    find_views(worlds, work.seen, observer, work.views);
+  }
   Chooser{worlds, emitters, tree, observer, work, lights}.choose(choice);
 }
 

@@ -15,7 +15,7 @@
 //
 //   H = tau I(omega) cos / d^2     (emitters.h),
 //
-// off by about a third of the square of radius over distance, and without the noise of a choice
+// off by up to the square of radius over distance, and without the noise of a choice
 // (lightcuts: Walter et al. 2005). For shadow rays some of its emitters stand for it,
 // chosen by power times cosine.
 //
@@ -25,14 +25,14 @@
 // they ask its nodes alone what they bring.
 #pragma once
 
-#include "mirror/window_cones.h"
+#include "mirror/light_estimates.h"
 
 namespace meninas {
 
 struct LightChoice {
   std::size_t most = 256; ///< K; as many or fewer images are all computed
   double offset = 0.5;    ///< in [0, 1): of the even steps
-  std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters in all at least
+  std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters where they bring all of the light
   std::uint64_t area = 0; ///< above 0: a name of the area whose point x is
   double extent = 0.0;    ///< largest distance of two points of it
   bool same_point = false; ///< as the choice before, by the same workspace: only the steps begin elsewhere
@@ -42,6 +42,7 @@ struct LightChoice {
 struct LightChoiceWorkspace {
   SeenWorlds seen;
   WindowCones cones;
+  std::vector<LampView> views; ///< of the worlds in `seen`
   struct CutNode {
     double estimate;     ///< s of the emitters below, brightest channel
     std::uint32_t world; ///< index into `seen`

@@ -29,62 +29,69 @@ double emitting_cosine(const EmitterNode& node, double radius, double cos_axis, 
 
 } // namespace
 
-bool LightEstimates::is_small(const SeenWorld& in, std::uint32_t at_node) const {
-  const EmitterNode& node = tree.nodes[at_node];
-  const Point3 centre = apply(worlds.worlds[index(in.world)].image, node.centre);
-  return node.radius <= small_for_distance * (glm::distance(centre, observer.position) - extent);
+void find_views(const WorldTree& worlds, const SeenWorlds& seen, const Observer& observer,
+                std::vector<LampView>& views) {
+  views.clear();
+  for (const SeenWorld& in : seen.worlds) {
+    const MirrorWorld& world = worlds.worlds[index(in.world)];
+    // The inverse of an isometry: v * linear is the transposed times v.
+    const Rgb& tau = world.throughput;
+    views.push_back({in, (observer.position - world.image.translation) * world.image.linear,
+                     observer.normal * world.image.linear, std::max({tau.r, tau.g, tau.b})});
+  }
 }
 
-bool LightEstimates::is_wholly_seen(const SeenWorld& in, std::uint32_t at_node) const {
-  const MirrorWorld& world = worlds.worlds[index(in.world)];
+/// Where a sphere lies around x + to, `to` in the lamps' own space.
+Where LightEstimates::through_window(const LampView& from, const Vec3& to, double radius) const {
+  const MirrorWorld& world = worlds.worlds[index(from.seen.world)];
+  return world.depth == 0 ? Where::inside
+                          : where_in_window(cones, world, from.seen, observer.position,
+                                            apply_direction(world.image, to), radius);
+}
+
+bool LightEstimates::is_small(const LampView& from, std::uint32_t at_node) const {
   const EmitterNode& node = tree.nodes[at_node];
-  const Vec3 to = apply(world.image, node.centre) - observer.position;
+  const Vec3 to = node.centre - from.position;
+  const double least = node.radius / small_for_distance + extent;
+  return glm::dot(to, to) >= least * least;
+}
+
+bool LightEstimates::is_wholly_seen(const LampView& from, std::uint32_t at_node) const {
+  const EmitterNode& node = tree.nodes[at_node];
+  const Vec3 to = node.centre - from.position;
   const double radius = node.radius + extent;
-  return where(glm::dot(to, observer.normal), radius) == Where::inside &&
-         where_in_window(cones, world, in, observer.position, to, radius) == Where::inside;
+  return where(glm::dot(to, from.normal), radius) == Where::inside &&
+         through_window(from, to, radius) == Where::inside;
 }
 
-/// pi times the intensity towards x, W, of a node in one world.
-double LightEstimates::intensity_towards(const MirrorWorld& world, const EmitterNode& node) const {
-  const Vec3 to = apply(world.image, node.middle) - observer.position;
-  // In the lamp's own space, of which the world's is an image.
-  return intensity_times_pi(tree, node, -(to * world.image.linear) / glm::length(to));
-}
-
-double LightEstimates::light_from_afar(const SeenWorld& in, std::uint32_t at_node) const {
-  const MirrorWorld& world = worlds.worlds[index(in.world)];
+double LightEstimates::light_from_afar(const LampView& from, std::uint32_t at_node) const {
   const EmitterNode& node = tree.nodes[at_node];
-  const Vec3 to = apply(world.image, node.middle) - observer.position;
+  const Vec3 to = node.middle - from.position;
   const double distance = glm::length(to);
-  const Rgb& tau = world.throughput;
-  return std::max({tau.r, tau.g, tau.b}) * intensity_towards(world, node) *
-         std::max(0.0, glm::dot(to, observer.normal)) /
+  return from.throughput * intensity_times_pi(tree, node, -to / distance) *
+         std::max(0.0, glm::dot(to, from.normal)) /
          (std::numbers::pi * distance * distance * distance);
 }
 
-double LightEstimates::estimate(const SeenWorld& in, std::uint32_t at_node) const {
-  const MirrorWorld& world = worlds.worlds[index(in.world)];
+double LightEstimates::estimate(const LampView& from, std::uint32_t at_node) const {
   const EmitterNode& node = tree.nodes[at_node];
-  const Vec3 to = apply(world.image, node.centre) - observer.position;
+  const Vec3 to = node.centre - from.position;
   const double radius = node.radius + extent;
-  const double height = glm::dot(to, observer.normal) + radius;
+  const double height = glm::dot(to, from.normal) + radius;
   if (height <= 0.0)
     return 0.0;
   const double distance = glm::length(to);
   double cosines = 1.0;
-  const double cos_axis = -glm::dot(apply_direction(world.image, node.axis), to) / distance;
+  const double cos_axis = -glm::dot(node.axis, to) / distance;
   if (node.second_child == 0 && cos_axis <= 0.0 && extent == 0.0)
     return 0.0;
   if (distance > radius) {
     cosines = std::min(1.0, height / distance) * emitting_cosine(node, radius, cos_axis, distance);
-    if (cosines <= 0.0 || where_in_window(cones, world, in, observer.position, to, radius) ==
-                              Where::outside)
+    if (cosines <= 0.0 || through_window(from, to, radius) == Where::outside)
       return 0.0;
   }
   const double reach = std::max(distance, node.radius);
-  const Rgb& tau = world.throughput;
-  return std::max({tau.r, tau.g, tau.b}) * node.power * cosines /
-         (std::numbers::pi * reach * reach);
+  return from.throughput * node.power * cosines / (std::numbers::pi * reach * reach);
 }
 
 } // namespace meninas

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace meninas {
 
@@ -111,6 +112,8 @@ void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorks
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
+  work.sampled.clear();
+  work.dim.clear();
   work.by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
@@ -124,6 +127,12 @@ void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorks
   }
   std::stable_sort(work.order.begin(), work.order.end(),
                    [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
+}
+
+/// Whether what is computed is a choice of the images.
+bool stand_for_others(const DirectWorkspace& work) {
+  return std::ranges::any_of(work.lights,
+                             [](const VirtualLight& image) { return image.stands_for_others(); });
 }
 
 /// How much is seen of each of the dim images, by its one sample:
@@ -172,8 +181,8 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 DirectWorkspace& work) {
   order_by_light(light, receiver, work);
 
-  // An image is worth shadow rays by its share of what has arrived so far:
-  // a bright one that is hidden takes none from the others.
+  // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden
+  // takes none from the others. One of a choice has its share of all: there are many, and none stands out.
   ArrivingLight sum;
   const bool everywhere = settings.penumbra_samples == PenumbraSamples::everywhere;
   const auto add = [&](std::uint32_t k, const Rgb& visible) {
@@ -188,11 +197,11 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
     sum.entering += light.emitters[image.emitter].area_light != no_area_light ? arrived : Rgb(0.0);
   };
   // One that stands for others of its group has them to share its shadow rays with: it takes one.
-  work.sampled.clear();
-  work.dim.clear();
+  const double all =
+      stand_for_others(work) ? std::accumulate(work.brought.begin(), work.brought.end(), 0.0) : 0.0;
   for (const std::uint32_t k : work.order) {
     const VirtualLight& image = work.lights[k];
-    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
+    const double worth = work.brought[k] / std::max({work.brought[k], largest(sum.total), all});
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     if (samples == 1 || image.stands_for_others()) {
       work.dim.push_back(k);
@@ -228,11 +237,6 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
   return sum;
 }
 
-static bool stand_for_others(const DirectWorkspace& work) {
-  return std::ranges::any_of(work.lights,
-                             [](const VirtualLight& image) { return image.stands_for_others(); });
-}
-
 /// Whether of the images that stand for others some are hidden and some are not.
 static bool groups_in_part(const DirectWorkspace& work) {
   bool hidden = false, seen = false;
@@ -242,27 +246,45 @@ static bool groups_in_part(const DirectWorkspace& work) {
   return hidden && seen;
 }
 
+/// The mean of two choices of images at a point, by lamp in the workspace, where that has the second.
+static ArrivingLight mean_of_choices(const ArrivingLight& first, const ArrivedByLamp& first_by_lamp,
+                                     const ArrivingLight& second, double share, DirectWorkspace& work) {
+  ArrivingLight mean = first;
+  mean.total = glm::mix(first.total, second.total, share);
+  mean.mirrored = glm::mix(first.mirrored, second.mirrored, share);
+  mean.entering = glm::mix(first.entering, second.entering, share);
+  mean.in_part = first.in_part || second.in_part;
+  for (std::size_t l = 0; l < work.by_lamp.size(); ++l)
+    work.by_lamp[l] = glm::mix(first_by_lamp[l], work.by_lamp[l], share);
+  return mean;
+}
+
 /// What the images of emitters bring, or a choice of them. Where many stand for a lamp, and some
-/// are hidden and some are not, they are chosen anew, as many as a penumbra takes samples.
+/// are hidden and some are not, others are chosen besides, with those before as many as a penumbra takes samples.
 static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& receiver,
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {
   const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const auto choose = [&](int rays, bool again) {
     const LightChoice choice{static_cast<std::size_t>(settings.images),
-                             0x1p-32 * hash(seed, 0xc401ce, 0), static_cast<std::size_t>(rays), 0, 0.0, again};
+                             0x1p-32 * hash(seed, 0xc401ce, again ? 1 : 0),
+                             static_cast<std::size_t>(rays), 0, 0.0, again};
     sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
                       work.choice, work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };
-  ArrivingLight sum = choose(settings.shadow_rays, false);
+  const bool everywhere = settings.penumbra_samples == PenumbraSamples::everywhere;
+  const int rays = everywhere ? settings.penumbra_rays : settings.shadow_rays;
+  ArrivingLight sum = choose(rays, false);
   if (!stand_for_others(work))
     return sum;
   const bool in_part = groups_in_part(work);
-  if (in_part || settings.penumbra_samples == PenumbraSamples::everywhere)
-    sum = choose(settings.penumbra_rays, true);
   sum.in_part = sum.in_part || in_part;
-  return sum;
+  const int more = settings.penumbra_rays - rays;
+  if (!in_part || more <= 0)
+    return sum;
+  const ArrivedByLamp by_lamp = work.by_lamp;
+  return mean_of_choices(sum, by_lamp, choose(more, true), double(more) / settings.penumbra_rays, work);
 }
 
 ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,

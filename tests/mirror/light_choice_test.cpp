@@ -203,6 +203,43 @@ TEST(LightChoice, IsTheSameByAKeptCut) {
   }
 }
 
+// Nodes that are seen from afar bring what their emitters do one by one, also by way of mirrors, and so
+// many of these stand for them as are asked for, at most.
+TEST(LightChoice, NodesFromAfarBringWhatTheirEmittersDo) {
+  constexpr std::size_t asked = 16;
+  constexpr int turns = 64;
+  for (const auto& mirrors : {std::array<bool, 6>{}, {true}, {true, false, false, false, true}}) {
+    const Lamps lamps = lamps_in(mirrors, glowing_sphere(48));
+    for (const Observer& observer : {Observer{{0.3, 0.01, 0.6}, {0, 1, 0}},
+                                     {{0.01, 1.7, 0.4}, {1, 0, 0}},
+                                     {{1.9, 1.0, 0.2}, glm::normalize(Vec3(-1, 0.3, 1))}}) {
+      double mean = 0.0;
+      LightChoiceWorkspace work;
+      std::vector<VirtualLight> lights;
+      for (int k = 0; k < turns; ++k) {
+        sample_light_tree({lamps.worlds, lamps.emitters, lamps.tree}, observer,
+                          {.most = 256, .offset = (k + 0.5) / turns, .afar = asked}, work, lights);
+        std::vector<VirtualLight> near;
+        std::size_t standing = 0;
+        for (const VirtualLight& light : lights)
+          if (light.afar > 0.0) {
+            ++standing;
+            mean += light.afar * lamps.worlds.worlds[index(light.world)].throughput.r *
+                    lamps.emitters[light.emitter].radiosity.r / turns;
+          } else {
+            near.push_back(light);
+          }
+        mean += light_of(lamps, observer, near) / turns;
+        EXPECT_GT(standing, 0U);
+        EXPECT_LE(standing, asked + 1);
+      }
+      // A disc that faces x has F = r^2 / (d^2 + r^2), from afar r^2 / d^2: off by the square of 0.2, the
+      // largest radius over distance, at most. Of what is chosen besides the mean over all offsets is right.
+      EXPECT_NEAR(mean / all_light(lamps, observer), 1.0, 0.2 * 0.2);
+    }
+  }
+}
+
 TEST(LightChoice, FewImagesAreAllTaken) {
   const Lamps lamps = lamps_in({true}, {ceiling_of_lamps()[0], ceiling_of_lamps()[77]});
   const Observer observer{{0.3, 0.01, 0.6}, {0, 1, 0}};
