@@ -100,6 +100,15 @@ TEST(SmoothShapes, ATubeIsClosedAndFacesOutwards) {
   const Mesh tube = gallery::tube(line, 0.1, 0.05, 16);
   EXPECT_EQ(open_edges(tube), 0U);
   EXPECT_GT(volume(tube), 0.0);
+
+  // Two thirds of a ring: Pappus's volume, but for the chords of both circles, some 3 %.
+  std::vector<Point3> arc;
+  for (int k = -24; k <= 24; ++k) {
+    const double angle = 2.0 * std::numbers::pi / 3.0 * k / 24.0;
+    arc.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  const double ring = 4.0 / 3.0 * std::numbers::pi * std::numbers::pi * 0.01;
+  EXPECT_NEAR(volume(gallery::tube(arc, 0.1, 0.1, 16)) / ring, 1.0, 0.04);
 }
 
 /// Read from the file that the generator would write, which is removed at once.

@@ -203,11 +203,13 @@ Mesh tube(std::span<const Point3> line, double first_radius, double last_radius,
   Mesh mesh;
   const auto n = static_cast<std::uint32_t>(sides);
   const std::size_t last = line.size() - 1;
-  const Vec3 helper = std::abs(glm::normalize(line[last] - line[0]).x) < 0.7 ? Vec3(1.0, 0.0, 0.0)
-                                                                             : Vec3(0.0, 0.0, 1.0);
+  // Carried along without a twist (Bishop 1975), as a fixed direction would flip where they align.
+  const Direction start = glm::normalize(line[1] - line[0]);
+  Vec3 across = std::abs(start.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 0.0, 1.0);
   for (std::size_t k = 0; k <= last; ++k) {
     const Direction along = glm::normalize(line[std::min(k + 1, last)] - line[k == 0 ? 0 : k - 1]);
-    const Direction u = glm::normalize(helper - glm::dot(helper, along) * along);
+    const Direction u = glm::normalize(across - glm::dot(across, along) * along);
+    across = u;
     const Direction v = glm::cross(along, u);
     const double radius =
         glm::mix(first_radius, last_radius, static_cast<double>(k) / static_cast<double>(last));
