@@ -113,8 +113,8 @@ TEST_P(WalkBetweenMirrors, AWorldIsOneDraw) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, WalkBetweenMirrors,
-                         testing::Values(MirrorWalls{"hall", {3, 4}, 9},
-                                         MirrorWalls{"three_walls", {2, 3, 4}, 12},
+                         testing::Values(MirrorWalls{"hall", {3, 4}, 4},
+                                         MirrorWalls{"three_walls", {2, 3, 4}, 11},
                                          MirrorWalls{"corner", {2, 3}, 4}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
@@ -382,8 +382,10 @@ TEST_F(Walk, EveryShaderIsTaken) {
   const json said = drawn("room.html", "", R"(
     const gl = document.createElement('canvas').getContext('webgl2'), refused = [];
     const none = { colours: [], emissions: [], holes: [] }, sheets = { colours: [0, 3], emissions: [7], holes: [3] };
-    for (let k = 0; gl && k < 32; ++k)
-      try { makeProgram(gl, roomVertex, roomFragment({ bodies: k & 1, rough: (k & 2) / 2, panes: (k & 4) / 4, sky: k & 8, sheets: k & 16 ? sheets : none })); }
+    const needs = Array.from({ length: 8 }, (_, k) => ({ bodies: k & 1, rough: (k & 2) / 2, panes: (k & 4) / 4, sky: false, sheets: none }));
+    needs.push({ ...needs[0], sky: true, sheets }, { ...needs[7], sky: true, sheets });
+    for (let k = 0; gl && k < needs.length; ++k)
+      try { makeProgram(gl, roomVertex, roomFragment(needs[k])); }
       catch (problem) { refused.push(`${k}: ${problem.message}`); }
     return { gl: Boolean(gl), refused };)");
   ASSERT_FALSE(said.is_null());
