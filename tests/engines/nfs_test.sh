@@ -84,6 +84,8 @@ else
   meninas batch jobs.json -o /run/rooms/whole --resume --threads 1 > whole-\$k.log 2>&1
   echo \$? > whole-done-\$k
   while [ ! -e whole-done-2 ] || [ ! -e whole-done-3 ]; do sleep 0.1; done
+  # The third joins when the second is under way, or else it may have made all before.
+  while [ \$k = 3 ] && [ ! -e joins ]; do sleep 0.1; done
   meninas batch jobs.json -o /run/rooms/cut --resume --threads 1 > cut-\$k.log 2>&1
   echo \$? > cut-done-\$k
   umount /run/rooms
@@ -116,6 +118,8 @@ fi
 wait_for 200 '[[ -s whole-done-2 && -s whole-done-3 ]]' || fail "two machines have not ended: $(tail -n 2 whole-?.log)"
 [[ $(< asked) == held ]] || fail 'a lock that one machine holds was had by the other'
 
+wait_for 100 '(($(made cut-2.log) >= 1))' || fail "no pictures: $(tail -n 2 cut-2.log)"
+: > joins
 wait_for 100 '(($(made cut-2.log) >= 2)) || [[ -s cut-done-3 ]]' || fail "no pictures: $(tail -n 2 cut-?.log)"
 [[ ! -s cut-done-3 ]] || fail 'all pictures were made before a machine could be cut off'
 ip -n "$id" link set tap2 down
