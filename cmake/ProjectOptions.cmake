@@ -57,7 +57,7 @@ set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <chrono> <cmath> <c
   <tbb/enumerable_thread_specific.h> <tbb/parallel_for.h>)
 
 # A release reads the headers of a chapter once: the sources of one folder are compiled as one. Where single sources change all day,
-# -DMENINAS_UNITY_BUILD=OFF compiles each by itself; the presets with debug information do, so each source includes what it needs.
+# -DMENINAS_UNITY_BUILD=OFF compiles each by itself, as the presets with debug information do.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   option(MENINAS_UNITY_BUILD "Compile the sources of one folder as one" OFF)
 else()

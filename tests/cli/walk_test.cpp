@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Gallery, WalkTruth,
                                          TruthCase{"mirror-spot.gltf", "main", "4", 1},
                                          TruthCase{"furnace.gltf", "main", "-1.5", 1},
                                          TruthCase{"globillum-1.gltf", "main", "3.5", 1},
-                                         TruthCase{"globillum-2.gltf", "main", "5", 1},
+                                         // 0.0058; 0.0083 where worlds are drawn beside their windows.
+                                         TruthCase{"globillum-2.gltf", "main", "5", 1, 0.007},
                                          TruthCase{"globillum-3.gltf", "main", "3.5", 1},
                                          TruthCase{"solar-row.gltf", "main", "-6.5", 1},
                                          // Lobes by 48 facets, and by what one point sees: 0.028. A draw to each rough mirror.

@@ -369,5 +369,26 @@ TEST(ErrorMap, IsLargeWhereThePictureIsOff) {
   EXPECT_GT(worst, 0.8 * is);
 }
 
+// In units of a power of two all is the same to the rounding of the estimate, whose squares are beyond floats.
+TEST(ErrorMap, DoesNotDependOnTheScaleOfLight) {
+  const TwoPassSettings settings = quick();
+  const auto map_of = [&](double scale) {
+    Scene scene = lit_room();
+    for (Material& material : scene.materials)
+      material.emission *= scale;
+    const Lit lit(scene, settings);
+    const Image picture = lit.picture(settings.render);
+    return error_map(lit.solution.field, lit.camera(), settings, picture,
+                     lit.error(settings, picture));
+  };
+  const Image plain = map_of(1.0);
+  for (const double scale : {0x1p-66, 0x1p73}) {
+    const Image map = map_of(scale);
+    for (std::size_t p = 0; p < plain.pixels.size(); ++p)
+      EXPECT_NEAR(map.pixels[p].g / scale, plain.pixels[p].g, 1e-3 * plain.pixels[p].g + 1e-6)
+          << scale << ' ' << p;
+  }
+}
+
 } // namespace
 } // namespace meninas::test
