@@ -205,7 +205,7 @@ async function openPage(data, told = {}) {
     room.instead = instead;
     ++room.lamps.state;
     panel.scale(instead);
-    redraw();
+    moved(); // a picture of the light would lie over it
   }
 
   followAddress();
