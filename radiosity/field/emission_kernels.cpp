@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::uint32_t enough_hits = 16, max_rings = 16;
 
+bool is_resolved(const VertexEmission& emission) { return emission.hits >= enough_hits; }
+
 /// The vertices around one, ring by ring.
 struct Neighbourhood {
   std::vector<std::uint32_t> vertices;
@@ -15,13 +17,35 @@ struct Neighbourhood {
   std::vector<std::uint32_t> met;        ///< by ElementVertexId: one more than the centre met it last
 };
 
+/// Values of few vertices of a mesh.
+class SparseEmission {
+public:
+  explicit SparseEmission(std::size_t count) : places_(count, 0) {}
+
+  /// The value of v, 0 at first.
+  VertexEmission& of(std::uint32_t v) {
+    if (places_[v] == 0) {
+      values_.push_back({.vertex = v});
+      places_[v] = static_cast<std::uint32_t>(values_.size());
+    }
+    return values_[places_[v] - 1];
+  }
+  const VertexEmission* find(std::uint32_t v) const {
+    return places_[v] == 0 ? nullptr : &values_[places_[v] - 1];
+  }
+  const std::vector<VertexEmission>& values() const { return values_; }
+
+private:
+  std::vector<std::uint32_t> places_; // by ElementVertexId: one more than the place among the values, or 0
+  std::vector<VertexEmission> values_;
+};
+
 struct Spreading {
-  const GatheredEmission& gathered;
+  const SparseEmission& gathered;
   std::span<const std::uint8_t> taken;
   const VertexSamples& found;
 
   bool is_taken(std::uint32_t v) const { return taken[v] != 0; }
-  bool is_resolved(std::uint32_t v) const { return gathered.hits[v] >= enough_hits; }
 
   double area_around(std::uint32_t v) const {
     double sum = 0.0;
@@ -31,22 +55,26 @@ struct Spreading {
   }
 
   /// Rings around u until they hold enough hits; light that is resolved bounds them.
-  void gather_rings(std::uint32_t u, Neighbourhood& near) const {
+  void gather_rings(const VertexEmission& centre, Neighbourhood& near) const {
+    const std::uint32_t u = centre.vertex;
     near.vertices.assign(1, u);
     near.ring_begin.assign({0, 1});
     near.met[u] = u + 1;
-    std::uint32_t hits = gathered.hits[u];
+    std::uint32_t hits = centre.hits;
     for (std::uint32_t ring = 1; ring <= max_rings && hits < enough_hits; ++ring) {
       const std::uint32_t begin = near.ring_begin[ring - 1], end = near.ring_begin[ring];
       for (std::uint32_t k = begin; k < end; ++k)
         for (const ElementId element : around(found.around, near.vertices[k]))
           for (const ElementVertexId corner : found.mesh.corners[index(element)]) {
             const std::uint32_t v = index(corner);
-            if (near.met[v] == u + 1 || is_resolved(v))
+            if (near.met[v] == u + 1)
+              continue;
+            const VertexEmission* const there = gathered.find(v);
+            if (there != nullptr && is_resolved(*there))
               continue;
             near.met[v] = u + 1;
             near.vertices.push_back(v);
-            hits += is_taken(v) ? gathered.hits[v] : 0;
+            hits += there != nullptr && is_taken(v) ? there->hits : 0;
           }
       near.ring_begin.push_back(static_cast<std::uint32_t>(near.vertices.size()));
       if (near.ring_begin[ring + 1] == near.ring_begin[ring])
@@ -54,8 +82,8 @@ struct Spreading {
     }
   }
 
-  /// Adds what u has gathered to its neighbourhood.
-  void spread(std::uint32_t u, const Neighbourhood& near, GatheredEmission& result) const {
+  /// Adds what the centre has gathered to its neighbourhood.
+  void spread(const VertexEmission& centre, const Neighbourhood& near, SparseEmission& result) const {
     const std::size_t rings = near.ring_begin.size() - 1;
     const auto each = [&](const auto& act) {
       for (std::size_t ring = 0; ring < rings; ++ring)
@@ -63,57 +91,63 @@ struct Spreading {
           if (is_taken(near.vertices[k]))
             act(near.vertices[k], 1.0 - static_cast<double>(ring) / static_cast<double>(rings));
     };
+    const auto add = [&](std::uint32_t v, float share) {
+      VertexEmission& to = result.of(v);
+      to.total += share * centre.total;
+      to.mirrored += share * centre.mirrored;
+    };
     double all = 0.0;
     each([&](std::uint32_t v, double weight) { all += weight * area_around(v); });
-    if (!(all > 0.0)) {
-      result.total[u] += gathered.total[u];
-      result.mirrored[u] += gathered.mirrored[u];
-      return;
-    }
-    const double own = area_around(u) / all;
-    each([&](std::uint32_t v, double weight) {
-      result.total[v] += static_cast<float>(own * weight) * gathered.total[u];
-      result.mirrored[v] += static_cast<float>(own * weight) * gathered.mirrored[u];
-    });
+    if (!(all > 0.0))
+      return add(centre.vertex, 1.0F);
+    const double own = area_around(centre.vertex) / all;
+    each([&](std::uint32_t v, double weight) { add(v, static_cast<float>(own * weight)); });
   }
 };
 
+/// Takes `to` in place of `from`. Sums of floats less one of their terms may be a rounding below zero.
+void change(const VertexEmission& to, const VertexEmission& from, VertexIrradiance& field) {
+  const std::size_t v = to.vertex;
+  const auto change_one = [v](std::vector<glm::vec3>& values, const glm::vec3& by) {
+    values[v] = glm::max(values[v] + by, glm::vec3(0.0F));
+  };
+  change_one(field.irradiance, to.total - from.total);
+  change_one(field.indirect, to.total - from.total);
+  change_one(field.mirrored, to.mirrored - from.mirrored);
+  change_one(field.indirect_mirrored, to.mirrored - from.mirrored);
+}
+
 } // namespace
 
-void spread_emission(const GatheredEmission& gathered, std::span<const std::uint8_t> taken,
+void spread_emission(std::span<const VertexEmission> gathered, std::span<const std::uint8_t> taken,
                      VertexSamples& found) {
-  const Spreading by{gathered, taken, found};
-  const std::size_t count = gathered.hits.size();
-  GatheredEmission result(count);
+  const auto is_spread = [&](const VertexEmission& emission) {
+    return taken[emission.vertex] != 0 && !is_resolved(emission);
+  };
+  if (std::ranges::none_of(gathered, is_spread))
+    return;
+  const std::size_t count = found.states.size();
+  SparseEmission before(count), after(count);
+  for (const VertexEmission& emission : gathered)
+    before.of(emission.vertex) = emission;
+  const Spreading by{before, taken, found};
   Neighbourhood near;
   near.met.assign(count, 0);
-  bool any = false;
-  for (std::uint32_t u = 0; u < count; ++u) {
-    if (!by.is_taken(u) || gathered.hits[u] == 0)
+  for (const VertexEmission& emission : gathered) {
+    if (taken[emission.vertex] == 0)
       continue;
-    if (by.is_resolved(u)) {
-      result.total[u] += gathered.total[u];
-      result.mirrored[u] += gathered.mirrored[u];
+    VertexEmission& own = after.of(emission.vertex);
+    if (is_resolved(emission)) {
+      own.total += emission.total;
+      own.mirrored += emission.mirrored;
       continue;
     }
-    any = true;
-    by.gather_rings(u, near);
-    by.spread(u, near, result);
+    by.gather_rings(emission, near);
+    by.spread(emission, near, after);
   }
-  if (!any)
-    return;
-  VertexIrradiance& field = found.field;
-  for (std::size_t v = 0; v < count; ++v) {
-    if (taken[v] == 0)
-      continue;
-    // Sums of floats less one of their terms may be a rounding below zero.
-    const auto change = [](glm::vec3& value, const glm::vec3& to, const glm::vec3& from) {
-      value = glm::max(value + (to - from), glm::vec3(0.0F));
-    };
-    change(field.irradiance[v], result.total[v], gathered.total[v]);
-    change(field.indirect[v], result.total[v], gathered.total[v]);
-    change(field.mirrored[v], result.mirrored[v], gathered.mirrored[v]);
-    change(field.indirect_mirrored[v], result.mirrored[v], gathered.mirrored[v]);
+  for (const VertexEmission& emission : after.values()) {
+    const VertexEmission* const from = before.find(emission.vertex);
+    change(emission, from != nullptr ? *from : VertexEmission{}, found.field);
   }
 }
 

@@ -18,17 +18,16 @@
 
 namespace meninas {
 
-/// What vertices have gathered of emission, by ElementVertexId.
-struct GatheredEmission {
-  std::vector<glm::vec3> total, mirrored; ///< W/m^2
-  std::vector<std::uint32_t> hits;        ///< rays that met it
-
-  explicit GatheredEmission(std::size_t vertices)
-      : total(vertices, glm::vec3(0.0F)), mirrored(vertices, glm::vec3(0.0F)), hits(vertices, 0) {}
+/// What a vertex has gathered of emission.
+struct VertexEmission {
+  std::uint32_t vertex = 0;                      ///< ElementVertexId
+  std::uint32_t hits = 0;                        ///< rays that met it
+  glm::vec3 total{0.0F}, mirrored{0.0F}; ///< W/m^2
 };
 
 /// Spreads it among vertices that have gathered: `taken` by ElementVertexId.
-void spread_emission(const GatheredEmission& gathered, std::span<const std::uint8_t> taken,
+/// `gathered` in the order of the vertices, of those with hits alone: few vertices cost little in a large mesh.
+void spread_emission(std::span<const VertexEmission> gathered, std::span<const std::uint8_t> taken,
                      VertexSamples& found);
 
 } // namespace meninas

@@ -154,8 +154,9 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
     hangs[index(hanging.vertex)] = 1;
   std::erase_if(vertices, [&](std::uint32_t v) { return hangs[v] != 0; });
 
-  GatheredEmission emission(mesh.vertices.size());
-  const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
+  std::vector<VertexEmission> emission(vertices.size());
+  const auto light_vertex = [&](std::size_t k, PointWorkspace& work) {
+    const std::uint32_t v = vertices[k];
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
     work.direct_by_lamp.clear();
     work.indirect_by_lamp.clear();
@@ -164,9 +165,8 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
     found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
-    emission.total[v] = glm::vec3(found_here.emission.total);
-    emission.mirrored[v] = glm::vec3(found_here.emission.mirrored);
-    emission.hits[v] = found_here.hits;
+    emission[k] = {v, found_here.hits, glm::vec3(found_here.emission.total),
+                   glm::vec3(found_here.emission.mirrored)};
     take_by_lamp(work, v, found.field);
     if (!found.entering.empty())
       found.entering[v] += glm::vec3(found_here.irradiance.entering);
@@ -181,13 +181,14 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     PointWorkspace& work = source.workspaces.local();
     for (std::size_t k = c * chunk_size; k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
-      light_vertex(vertices[k], work);
+      light_vertex(k, work);
     report(source.part, double(++done) / double(chunks));
   });
   // What is covered takes its light from beside it.
   std::vector<std::uint8_t> taken(mesh.vertices.size(), 0);
   for (const std::uint32_t v : vertices)
     taken[v] = has_value(found.states[v]) ? 1 : 0;
+  std::erase_if(emission, [](const VertexEmission& of_vertex) { return of_vertex.hits == 0; });
   spread_emission(emission, taken, found);
   cover_low(source, found);
 }
@@ -203,10 +204,10 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexS
   resample_near_penumbrae(source, level, found);
 }
 
-/// Marks the dark vertices in one element with a bright one, one that is covered,
-/// or one that has all of its light;
-/// those once marked no more. Returns whether there are any.
-static bool mark_dark_beside_bright(const VertexSamples& found, std::vector<std::uint8_t>& marked,
+/// Marks the dark vertices of an element that has a bright one, one that is covered,
+/// or one that has all of its light; those once asked no more.
+static bool mark_dark_beside_bright(const VertexSamples& found, ElementId element,
+                                    std::vector<std::uint8_t>& marked,
                                     std::vector<std::uint8_t>& asked) {
   const auto is_dark = [&](std::size_t v) {
     return found.states[v] == VertexState::lit && found.field.irradiance[v] == glm::vec3(0.0F);
@@ -216,23 +217,26 @@ static bool mark_dark_beside_bright(const VertexSamples& found, std::vector<std:
            found.states[index(v)] == VertexState::gathered ||
            (found.states[index(v)] == VertexState::lit && !is_dark(index(v)));
   };
-  marked.assign(asked.size(), 0);
+  const ElementCorners& corners = found.mesh.corners[index(element)];
   bool any = false;
-  for (const ElementCorners& corners : found.mesh.corners)
-    if (std::ranges::any_of(corners, is_beside))
-      for (const ElementVertexId v : corners)
-        if (is_dark(index(v)) && asked[index(v)] == 0) {
-          marked[index(v)] = asked[index(v)] = 1;
-          any = true;
-        }
+  if (std::ranges::any_of(corners, is_beside))
+    for (const ElementVertexId v : corners)
+      if (is_dark(index(v)) && asked[index(v)] == 0) {
+        marked[index(v)] = asked[index(v)] = 1;
+        any = true;
+      }
   return any;
 }
 
 /// Finds the dark vertices that are covered, inwards from where light ends.
-/// Deep in the dark, others hurt nobody.
+/// Deep in the dark, others hurt nobody. After the first step, what is new to be asked lies beside vertices
+/// that the step before has found covered.
 static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
-  std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
-  while (mark_dark_beside_bright(found, marked, asked))
+  std::vector<std::uint8_t> marked(found.states.size(), 0), asked(found.states.size(), 0);
+  bool any = false;
+  for (std::uint32_t e = 0; e < found.mesh.corners.size(); ++e)
+    any = mark_dark_beside_bright(found, ElementId{e}, marked, asked) || any;
+  while (any) {
     light_each(
         source, {VertexState::lit, VertexState::lit, marked}, found,
         [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
@@ -241,6 +245,16 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
                   clearance_of_unlit(source.gathering.light, source.gathering.form_factors,
                                     found.receivers[v], size, seed, work)};
         });
+    std::vector<std::uint32_t> covered;
+    for (std::uint32_t v = 0; v < marked.size(); ++v)
+      if (marked[v] != 0 && found.states[v] == VertexState::covered)
+        covered.push_back(v);
+    std::ranges::fill(marked, 0);
+    any = false;
+    for (const std::uint32_t v : covered)
+      for (const ElementId element : around(found.around, v))
+        any = mark_dark_beside_bright(found, element, marked, asked) || any;
+  }
   // Under a low cover that goes on all around the rest of the light is still to be gathered.
   std::ranges::replace(found.states, VertexState::low, VertexState::lit);
 }

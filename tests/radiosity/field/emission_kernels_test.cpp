@@ -29,12 +29,12 @@ Floor floor_of_vertices() {
   return floor;
 }
 
-void add_emission(const GatheredEmission& gathered, VertexSamples& found) {
-  for (std::size_t v = 0; v < gathered.hits.size(); ++v) {
-    found.field.irradiance[v] += gathered.total[v];
-    found.field.indirect[v] += gathered.total[v];
-    found.field.mirrored[v] += gathered.mirrored[v];
-    found.field.indirect_mirrored[v] += gathered.mirrored[v];
+void add_emission(const std::vector<VertexEmission>& gathered, VertexSamples& found) {
+  for (const auto& [v, hits, total, mirrored] : gathered) {
+    found.field.irradiance[v] += total;
+    found.field.indirect[v] += total;
+    found.field.mirrored[v] += mirrored;
+    found.field.indirect_mirrored[v] += mirrored;
   }
 }
 
@@ -52,16 +52,12 @@ TEST(EmissionKernels, LeaveNoDotsAndLoseNoLight) {
   Floor floor = floor_of_vertices();
   VertexSamples& found = floor.found;
   const std::size_t count = found.states.size();
-  GatheredEmission gathered(count);
+  std::vector<VertexEmission> gathered;
   Random random(5);
-  std::size_t dots = 0;
-  for (std::size_t v = 0; v < count; ++v)
-    if (random.between(0.0, 1.0) < 0.02) {
-      gathered.hits[v] = 1;
-      gathered.total[v] = gathered.mirrored[v] = glm::vec3(50.0F);
-      ++dots;
-    }
-  ASSERT_GT(dots, 10U);
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (random.between(0.0, 1.0) < 0.02)
+      gathered.push_back({v, 1, glm::vec3(50.0F), glm::vec3(50.0F)});
+  ASSERT_GT(gathered.size(), 10U);
   add_emission(gathered, found);
   const double before = power_of(found, found.field.irradiance);
   spread_emission(gathered, floor.taken, found);
@@ -83,12 +79,10 @@ TEST(EmissionKernels, LeaveWhatIsWellFoundAsItIs) {
   Floor floor = floor_of_vertices();
   VertexSamples& found = floor.found;
   const std::size_t count = found.states.size();
-  GatheredEmission gathered(count);
-  for (std::size_t v = 0; v < count; ++v)
-    if (found.mesh.vertices[v].x < 2.01) {
-      gathered.hits[v] = 40;
-      gathered.total[v] = glm::vec3(3.0F);
-    }
+  std::vector<VertexEmission> gathered;
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (found.mesh.vertices[v].x < 2.01)
+      gathered.push_back({v, 40, glm::vec3(3.0F), glm::vec3(0.0F)});
   add_emission(gathered, found);
   const VertexIrradiance before = found.field;
   spread_emission(gathered, floor.taken, found);
@@ -100,18 +94,16 @@ TEST(EmissionKernels, LeaveWhatIsWellFoundAsItIs) {
   });
   ASSERT_NE(beside, found.mesh.vertices.end());
   const auto v = static_cast<std::size_t>(beside - found.mesh.vertices.begin());
-  gathered.hits[v] = 1;
-  gathered.total[v] = glm::vec3(100.0F);
+  const std::vector<VertexEmission> well_found = gathered;
+  gathered.push_back({static_cast<std::uint32_t>(v), 1, glm::vec3(100.0F), glm::vec3(0.0F)});
+  std::ranges::sort(gathered, {}, &VertexEmission::vertex);
   found.field = before;
   found.field.irradiance[v] += glm::vec3(100.0F);
   found.field.indirect[v] += glm::vec3(100.0F);
   spread_emission(gathered, floor.taken, found);
   EXPECT_LT(found.field.irradiance[v].r, 2.0F);
-  for (std::size_t u = 0; u < count; ++u) {
-    if (gathered.hits[u] == 40) {
-      EXPECT_EQ(found.field.irradiance[u], before.irradiance[u]);
-    }
-  }
+  for (const VertexEmission& emission : well_found)
+    EXPECT_EQ(found.field.irradiance[emission.vertex], before.irradiance[emission.vertex]);
 }
 
 } // namespace
