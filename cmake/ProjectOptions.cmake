@@ -103,6 +103,29 @@ endfunction()
 
 set(MENINAS_HEADERS meninas_headers) # whose precompiled headers the libraries of a folder read
 
+# meninas_quick_chapters(meninas_scenes gltf report): no ray is traced in these folders of the library,
+# and the compiler's time is worth more than the program's: -O1. To be called after the library is linked to others.
+function(meninas_quick_chapters target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH chapter)
+    if(chapter IN_LIST ARGN)
+      list(APPEND quick ${source})
+    endif()
+  endforeach()
+  list(REMOVE_ITEM sources ${quick})
+  add_library(${target}_quick OBJECT ${quick})
+  set_target_properties(${target} PROPERTIES SOURCES "${sources};$<TARGET_OBJECTS:${target}_quick>")
+  get_target_property(includes ${target} INCLUDE_DIRECTORIES)
+  get_target_property(libraries ${target} LINK_LIBRARIES)
+  target_include_directories(${target}_quick PRIVATE ${includes})
+  target_compile_features(${target}_quick PRIVATE cxx_std_20)
+  target_compile_options(${target}_quick PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_link_libraries(${target}_quick PRIVATE ${libraries})
+  target_precompile_headers(${target}_quick REUSE_FROM meninas_headers_quick)
+  meninas_chapters(${target}_quick)
+endfunction()
+
 # meninas_library(scenes a.cpp b.cpp): the library of one folder; includes are written from the project's root.
 function(meninas_library folder)
   add_library(meninas_${folder} STATIC ${ARGN})
