@@ -4,6 +4,7 @@
 // on standard error, and an exit code that says whose fault it is.
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/heap_pages.h"
 #include "cli/help/completion.h"
 #include "cli/help/help.h"
 #include "cli/help/manual.h"
@@ -199,6 +200,7 @@ void guarded_main(int argc, char** argv) {
 int main(int argc, char** argv) {
   using meninas::ExitCode;
   meninas::keep_standard_error_taken();
+  meninas::keep_heap_in_large_pages();
   try {
     meninas::guarded_main(argc, argv);
     return static_cast<int>(ExitCode::success);

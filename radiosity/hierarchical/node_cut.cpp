@@ -3,6 +3,9 @@
 #include "radiosity/transport/gathered_emission.h"
 #include "scenes/sampling.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace meninas {
@@ -208,15 +211,15 @@ std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,
   return means;
 }
 
-Transport between_receivers(const NodeCut& cut) {
+namespace {
+
+/// The rows [begin, end) of what receivers gather from one another; `place` is by receiver, 0, and left so.
+Transport links_of_rows(const NodeCut& cut, std::size_t begin, std::size_t end,
+                        std::vector<std::uint32_t>& place) {
   const Transport& rows = cut.rows;
   const auto bands = static_cast<std::size_t>(rows.bands);
   Transport result;
-  result.size = rows.size;
-  result.bands = rows.bands;
-  result.row_begin.push_back(0);
-  std::vector<std::uint32_t> place(rows.size, 0); // 1 + its place among the row's columns, or 0
-  for (std::size_t r = 0; r < rows.size; ++r) {
+  for (std::size_t r = begin; r < end; ++r) {
     const std::size_t first = result.columns.size();
     for (auto k = rows.row_begin[r]; k < rows.row_begin[r + 1]; ++k) {
       const std::uint32_t source = cut.receiver_of_element[rows.columns[k]];
@@ -233,6 +236,40 @@ Transport between_receivers(const NodeCut& cut) {
       place[result.columns[k]] = 0;
     result.row_begin.push_back(result.columns.size());
   }
+  return result;
+}
+
+} // namespace
+
+Transport between_receivers(const NodeCut& cut) {
+  constexpr std::size_t chunk_size = 1024;
+  const std::size_t size = cut.rows.size, chunks = (size + chunk_size - 1) / chunk_size;
+  std::vector<Transport> parts(chunks);
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> places(
+      [size] { return std::vector<std::uint32_t>(size, 0); }); // 1 + its place among the row's columns, or 0
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    parts[c] = links_of_rows(cut, c * chunk_size, std::min(size, (c + 1) * chunk_size),
+                             places.local());
+  });
+
+  // One table of all, chunk by chunk.
+  Transport result;
+  result.size = size;
+  result.bands = cut.rows.bands;
+  std::vector<std::size_t> first(chunks + 1, 0);
+  for (std::size_t c = 0; c < chunks; ++c)
+    first[c + 1] = first[c] + parts[c].columns.size();
+  result.row_begin.assign(size + 1, 0);
+  result.columns.resize(first[chunks]);
+  result.weights.resize(first[chunks] * static_cast<std::size_t>(result.bands));
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    const auto begin = static_cast<std::ptrdiff_t>(first[c]);
+    std::ranges::copy(parts[c].columns, result.columns.begin() + begin);
+    std::ranges::copy(parts[c].weights, result.weights.begin() + begin * result.bands);
+    for (std::size_t k = 0; k < parts[c].row_begin.size(); ++k)
+      result.row_begin[c * chunk_size + k + 1] = first[c] + parts[c].row_begin[k];
+    parts[c] = {};
+  });
   return result;
 }
 

@@ -130,6 +130,15 @@ private:
   std::vector<std::uint32_t> columns_;
 };
 
+void append_row(const Transport& from, std::size_t row, Transport& to) {
+  const auto begin = static_cast<std::ptrdiff_t>(from.row_begin[row]),
+             end = static_cast<std::ptrdiff_t>(from.row_begin[row + 1]);
+  to.columns.insert(to.columns.end(), from.columns.begin() + begin, from.columns.begin() + end);
+  to.weights.insert(to.weights.end(), from.weights.begin() + begin * from.bands,
+                    from.weights.begin() + end * from.bands);
+  to.row_begin.push_back(to.columns.size());
+}
+
 Rgb share_of_total(const Rgb& part, const Rgb& total) {
   Rgb share(0.0);
   for (int band = 0; band < 3; ++band)
@@ -236,8 +245,14 @@ MixedRows mixed_rows(const Transport& transport, const std::vector<Rgb>& reflect
   mixed.transport.bands = grey ? transport.bands : 3;
   RowSum sum(transport);
   mixed.transport.row_begin.push_back(0);
+  mixed.transport.columns.reserve(transport.columns.size());
+  mixed.transport.weights.reserve(transport.columns.size() * static_cast<std::size_t>(mixed.transport.bands));
   for (std::size_t i = 0; i < transport.size; ++i) {
     const bool own_alone = links.row_begin[i] == links.row_begin[i + 1];
+    if (own_alone && mixed.transport.bands == transport.bands) {
+      append_row(transport, i, mixed.transport);
+      continue;
+    }
     sum.add(i, own_alone ? Rgb(1.0) : share_of_total(reflectance[i], mixed.total[i]));
     for (std::uint32_t k = links.row_begin[i]; k < links.row_begin[i + 1]; ++k)
       sum.add(links.columns[k], share_of_total(links.transmittance[k], mixed.total[i]));
