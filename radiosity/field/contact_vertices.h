@@ -68,4 +68,11 @@ private:
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
                         std::vector<std::uint8_t>& valid, VertexIrradiance& field);
 
+/// Vertices beyond what cuts an element have the light of the place next to it. The line through
+/// that and the light at the element's own corners is followed to the vertex, so that light is
+/// right where it is seen.
+/// `receivers` by ElementVertexId: where each vertex has gathered.
+void extend_over_regions(const ElementMesh& mesh, std::span<const Receiver> receivers,
+                         std::vector<std::uint8_t>& valid, VertexIrradiance& field);
+
 } // namespace meninas

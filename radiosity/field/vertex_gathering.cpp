@@ -316,43 +316,6 @@ void light_contacts(const VertexSource& source, const VertexSamples& found,
   extend_to_contacts(edges, lights, valid, field);
 }
 
-/// Vertices beyond what cuts an element have the light of the place next to it. The line through
-/// that and the light at the element's own corners is followed to the vertex, so that light is
-/// right where it is seen.
-void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid,
-                    VertexIrradiance& field) {
-  const ElementMesh& mesh = found.mesh;
-  std::vector<ContactEdge> edges;
-  std::vector<ContactLight> lights;
-  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
-    const RegionElement* region = region_of(mesh, ElementId{e});
-    if (region == nullptr)
-      continue;
-    const ElementCorners& corners = mesh.corners[e];
-    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
-    const auto is_own = [&](std::size_t c) { return ((region->own_corners >> c) & 1U) != 0; };
-    for (std::size_t c = 0; c < count; ++c)
-      for (const std::size_t beside : {(c + 1) % count, (c + count - 1) % count}) {
-        const std::uint32_t v = index(corners[c]), n = index(corners[beside]);
-        if (is_own(c) || !is_own(beside) || valid[v] == 0 || valid[n] == 0)
-          continue;
-        const Vec3 way = mesh.vertices[v] - mesh.vertices[n];
-        const Vec3 to = found.receivers[v].position - mesh.vertices[n];
-        const double place = glm::dot(to, way) / glm::dot(way, way);
-        // Of its edges the one on which light is gathered for the vertex (vertex_places.h).
-        if (!(place > 0.0 && place < 1.0 &&
-              glm::distance(to, place * way) < 0.05 * glm::length(way)))
-          continue;
-        edges.push_back({v, n});
-        lights.push_back(
-            {place,
-             {{Rgb(field.irradiance[v]), Rgb(field.mirrored[v])},
-              {Rgb(field.indirect[v]), Rgb(field.indirect_mirrored[v])}}});
-      }
-  }
-  extend_to_contacts(edges, lights, valid, field);
-}
-
 /// The corners of elements that are open only in between take what is gathered there.
 void light_gaps(const VertexSource& source, const ElementMesh& mesh,
                 std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
@@ -387,7 +350,7 @@ VertexIrradiance complete_field(const VertexSource& source, const VertexSamples&
   join_on_curves(source.gathering.light, found, valid, field);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
-  extend_regions(found, valid, field);
+  extend_over_regions(found.mesh, found.receivers, valid, field);
   light_gaps(source, found.mesh, valid, field);
   for_each_array(field, [&](auto& values) {
     fill_vertices(found.mesh, valid, values);
