@@ -1,51 +1,90 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md and of the pages of docs anew: docs/pictures.sh [PROGRAM]
-# From a checkout; PROGRAM is ./meninas unless another one is named. It takes some minutes.
+# Makes the pictures of README.md and of the pages of docs anew: docs/pictures.sh [--compare] [--only REGEX] [PROGRAM]
+#   --compare      into a folder that goes again; says which of those in docs differ visibly (mean FLIP above 0.01), exit code 1
+#   --only REGEX   those alone whose name, without docs/ and .png, it fits
+# From a checkout; PROGRAM is ./meninas unless another one is named. All take a quarter of an hour, most of it the living room.
 # oiiotool (openimageio-tools, which a build needs as well) cuts layers out of EXRs and puts pictures side by side.
 set -euo pipefail
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+compare='' only=''
+while (($#)); do
+  case $1 in
+    --compare) compare=1 ;;
+    --only) only=$2 && shift ;;
+    -*) printf 'docs/pictures.sh: unknown option %s\n' "$1" >&2 && exit 2 ;;
+    *) break ;;
+  esac
+  shift
+done
 program=${1:-$root/meninas}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+docs=$root/docs
+if [[ -n $compare ]]; then docs=$scratch/docs && mkdir "$docs"; fi
 
-# render NAME SCENE OPTIONS...: that scene of the gallery.
+# wanted NAME
+wanted() { [[ -z $only || $1 =~ $only ]]; }
+
+# scene NAME: its file; that of the living room is written by the generator, which a build has.
+scene() {
+  if [[ $1 == living-room ]]; then
+    cmake --build "$root/build/release" -t meninas_living_room >&2
+    printf '%s' "$root/build/release/scenes/gallery/$1.glb"
+  else
+    printf '%s' "$root/scenes/gallery/$1.gltf"
+  fi
+}
+
+# render FILE SCENE OPTIONS...: that scene of the gallery.
 render() {
-  local file=$1 scene=$2
+  local file=$1 from
+  from=$(scene "$2")
   shift 2
   printf '%s\n' "${file##*/}" >&2
-  "$program" render "$root/scenes/gallery/$scene.gltf" -o "$file" --quiet "$@"
+  "$program" render "$from" -o "$file" --quiet "$@"
 }
 
 # picture NAME SCENE OPTIONS...: docs/NAME.png.
 picture() {
   local name=$1
   shift
-  render "$root/docs/$name.png" "$@"
+  wanted "$name" || return 0
+  render "$docs/$name.png" "$@"
 }
 
 # layer NAME SCENE LAYER BRIGHTER OPTIONS...: docs/NAME.png of one layer of light, so many times as bright.
 layer() {
   local name=$1 scene=$2 layer=$3 brighter=$4
   shift 4
+  wanted "$name" || return 0
   render "$scratch/$name.exr" "$scene" --layers "$@"
   oiiotool "$scratch/$name.exr" --ch "$layer.R,$layer.G,$layer.B" --chnames R,G,B --mulc "$brighter" \
-    --colorconvert linear sRGB --clamp:min=0:max=1 -d uint8 -o "$root/docs/$name.png"
+    --colorconvert linear sRGB --clamp:min=0:max=1 -d uint8 -o "$docs/$name.png"
 }
 
 # row NAME SCENE OPTIONS -- OPTIONS ...: docs/NAME.png, one picture beside the other, each with its options.
 row() {
   local name=$1 scene=$2 pictures=() options=() word
   shift 2
+  wanted "$name" || return 0
   for word in "$@" --; do
     if [[ $word != -- ]]; then options+=("$word") && continue; fi
     pictures+=("$scratch/$name-${#pictures[@]}.png")
     render "${pictures[-1]}" "$scene" --size 240x180 "${options[@]}"
     options=()
   done
-  oiiotool "${pictures[@]}" --mosaic:pad=4 "${#pictures[@]}x1" -o "$root/docs/$name.png"
+  oiiotool "${pictures[@]}" --mosaic:pad=4 "${#pictures[@]}x1" -o "$docs/$name.png"
 }
 
+# README.md
+day=(--background '2,2.4,2.9' --exposure 0.8)
+picture living-room living-room --size 1920x1080 "${day[@]}"
+if wanted living-room-paths; then
+  render "$scratch/by-radiosity.png" living-room --size 480x270 "${day[@]}"
+  render "$scratch/by-paths.png" living-room --size 480x270 "${day[@]}" --mode reference --samples 64 # as long
+  oiiotool "$scratch/by-radiosity.png" "$scratch/by-paths.png" --mosaic:pad=4 2x1 -o "$docs/living-room-paths.png"
+fi
 picture meninas-radiosity meninas --size 720x800 --mode radiosity --quality fine
 picture meninas-hybrid meninas --size 720x800
 picture glass-screen glass-screen --size 480x360
@@ -84,17 +123,32 @@ row option-mode cornell-mirror --mode radiosity -- --mode hybrid -- --mode refer
 
 # docs/error.md
 row error-steps sunbeam --mesh uniform --elements 1000 --diffuse interpolated -- --elements 16000 --diffuse interpolated -- --diffuse direct
-render "$scratch/error-map.exr" sunbeam --size 240x180 --error-map --diffuse interpolated
-oiiotool "$scratch/error-map.exr" --ch error.R --chnames Y --mulc 4 --colormap inferno --clamp:min=0:max=1 -d uint8 -o "$root/docs/error-map.png"
+if wanted error-map; then
+  render "$scratch/error-map.exr" sunbeam --size 240x180 --error-map --diffuse interpolated
+  oiiotool "$scratch/error-map.exr" --ch error.R --chnames Y --mulc 4 --colormap inferno --clamp:min=0:max=1 -d uint8 -o "$docs/error-map.png"
+fi
 
 # The page of `view`, where there is a Chromium to draw it.
 if command -v chromium >/dev/null; then
-  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/meninas.gltf" "$root/docs/view-film.png"
-  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/cornell-mirror.gltf" "$root/docs/view-factors.png" --factors 690,250
+  if wanted view-film; then "$root/bench/view_film.py" "$program" "$root/scenes/gallery/meninas.gltf" "$docs/view-film.png"; fi
+  if wanted view-factors; then "$root/bench/view_film.py" "$program" "$root/scenes/gallery/cornell-mirror.gltf" "$docs/view-factors.png" --factors 690,250; fi
 fi
 
 # The variant of a baked scene: all that is seen of its light is its textures.
-baked=$scratch
-printf '%s\n' bake >&2
-"$program" bake "$root/scenes/gallery/meninas.gltf" -o "$baked/baked.glb" --quiet
-"$program" render "$baked/baked.glb" --variant baked --size 360x400 --exposure 0 --view-transform srgb -o "$root/docs/bake.png" --quiet
+if wanted bake; then
+  printf '%s\n' bake >&2
+  "$program" bake "$root/scenes/gallery/meninas.gltf" -o "$scratch/baked.glb" --quiet
+  "$program" render "$scratch/baked.glb" --variant baked --size 360x400 --exposure 0 --view-transform srgb -o "$docs/bake.png" --quiet
+fi
+
+# What differs is named, and nothing is not enough.
+if [[ -n $compare ]]; then
+  made=("$docs"/*.png)
+  [[ -e ${made[0]} ]] || { printf 'docs/pictures.sh: no picture is named like %s\n' "$only" >&2 && exit 2; }
+  differ=0
+  for new in "${made[@]}"; do
+    name=${new##*/}
+    "$program" diff "$new" "$root/docs/$name" --max-flip 0.01 >"$scratch/diff.txt" || { printf 'docs/%s is not what this program makes:\n' "$name" && cat "$scratch/diff.txt" && differ=1; }
+  done
+  exit "$differ"
+fi
