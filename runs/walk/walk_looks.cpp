@@ -60,6 +60,13 @@ Rgb lobe_reflectance(const Bsdf& bsdf) {
   return bsdf.metal * (albedo.f0 + albedo.f90) + bsdf.coat * coat_albedo(bsdf, from_most_sides());
 }
 
+/// What its facets of metal alone spread of light, towards most sides.
+Rgb spread_by_metal(Bsdf bsdf) {
+  bsdf.diffuse = bsdf.passed = bsdf.sheen = Rgb(0.0);
+  bsdf.coat = 0.0;
+  return even_reflectance(bsdf, from_most_sides());
+}
+
 /// What is worth looking for in a lobe.
 bool shows_metal(const Material& material, const MaterialPoint& point) {
   constexpr double least = 0.02; // of the light
@@ -119,8 +126,12 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
       look.kind == WalkKind::coat ? mirror_coat(material) : make_bsdf(material, point);
   look.reflectance = bsdf.metal;
   // What facets spread is in the even part, of light that only metals with a field receive.
-  if (look.kind == WalkKind::glossy)
+  if (look.kind == WalkKind::glossy) {
+    const SchlickAlbedo albedo = lobe_albedo(bsdf, from_most_sides());
     look.reflectance = lobe_reflectance(bsdf);
+    look.f0 = spread_by_metal(bsdf);
+    look.f90 = albedo.f0 + albedo.f90;
+  }
   if (look.kind == WalkKind::coat) {
     look.f0 = bsdf.coat * below_film(bsdf.film, bsdf.coat_f0,
                                      schlick_f0_of_mean(bsdf.film_on_coat.reflectance, bsdf.coat_f90));

@@ -17,7 +17,7 @@
 //   solid      R(cos) and T(cos) of one face of what the middle of its body sees along the mirrored
 //              and the refracted ray, as if that met no second face: an approximation
 //   glossy     a metal without a mirror world: rho H / pi of what its facets spread, and its lobe of what
-//              the middle of its body sees along it
+//              the middle of its body sees along it, each as the albedo of its facets towards the eye shares them
 #pragma once
 
 #include "scenes/lamps.h"
@@ -31,8 +31,9 @@ struct WalkLook {
   Rgb albedo{0.0}, rest{0.0};
   Rgb emission{0.0}; ///< radiance, times the emissive texture
   Rgb reflectance{0.0}; ///< of mirrors; of solids ln of what is left of light after a metre
-  Rgb f0{0.0};          ///< of coats and panes
-  double f90 = 0.0, ior = 1.5;
+  Rgb f0{0.0}; ///< of coats and panes; of glossy metal what its facets spread of light, from most sides
+  double f90 = 0.0; ///< of the same; of glossy metal what its facets throw back at once of it
+  double ior = 1.5;
   Rgb tint{1.0};        ///< of panes
   double alpha = 1.0;
   double cutoff = -1.0; ///< holes are where alpha is below it

@@ -232,7 +232,9 @@ function makePainter(gl, data, room, textures) {
     bind(4, scale);
     if (room.needs.bodies) gl.uniform4fv(at["bodies[0]"], bodyNumbers());
     gl.uniform1i(at.falseColours, options.falseColours);
-    gl.uniform1i(at.facets, options.facets || 8);
+    const facets = options.facets || 8, block = options.block || 1; // of 48 facets a quarter: more would reach below the horizon
+    gl.uniform1i(at.facets, facets);
+    gl.uniform1f(at.between, 0.25 * Math.sqrt(48 / facets / block));
     gl.uniform1f(at.lightScale, room.instead ? 1 : data.light);
     gl.uniform1f(at.exposed, exposed);
     gl.uniform1f(at.topIrradiance, room.instead ? room.instead.top : data.top);

@@ -2,7 +2,7 @@
 "use strict";
 
 /// Rays to a rough surface's pixel: of pictures, at rest, while someone moves.
-const facetsFor = block => block > 2 ? 48 : block > 1 ? 24 : 12;
+const facetsFor = block => block > 2 ? 96 : block > 1 ? 24 : 12;
 
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;

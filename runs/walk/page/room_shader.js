@@ -113,6 +113,7 @@ in vec4 onTextures, colour;
 flat in int look, body, isFollowed;
 flat in ivec2 units;
 uniform int shows, tells, facets;
+uniform float between; // of its way from the middle, what a facet's ray stands for
 uniform mat4 asideProjection;
 uniform vec4 lineColour;
 uniform bool falseColours;
@@ -171,68 +172,80 @@ float farOnAside(vec3 x) {
   float far = textureLod(mirrored, onAside(x), 0.0).a;
   return min(distance(asideEye + far * normalize(x - asideEye), place), 1e4);
 }
-/// The frame of facets by GGX about n, turned from pixel to pixel.
-struct Facets { vec3 n, t, b; float alpha, o, turn; };
+/// The frame of facets by GGX about n. Sixteen pixels, and the four of each quarter of them, have facets between one
+/// another's, so that their mean is that of as many times more (the order of pixels: Bayer 1973).
+struct Facets { vec3 n, t, b; float alpha, o, first; };
 Facets facetsAbout(vec3 n, vec3 towards, float roughness) {
   vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
-  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  return Facets(n, t, cross(n, t), roughness * roughness, max(1e-3, -dot(towards, n)), turn);
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int other = at.x ^ at.y, order = 8 * (other & 1) + 4 * (at.y & 1) + (other & 2) + ((at.y >> 1) & 1);
+  return Facets(n, t, cross(n, t), roughness * roughness, max(1e-3, -dot(towards, n)), (float(order) + 0.5) / 16.0);
 }
-/// Where the ray of facet k goes, its cosine o.h, and its weight G2 (o.h) / (n.h) (Walter et al. 2007). Of 48
-/// facets it stands for a quarter of its way from the middle (more would reach below the horizon).
-vec3 facetRay(Facets f, vec3 towards, int k, out float c, out float weight, out float width) {
-  float u = (float(k) + 0.5) / float(facets), phi = f.turn + 2.39996323 * float(k), slope = f.alpha * sqrt(u / (1.0 - u));
-  width = 0.25 * sqrt(48.0 / float(facets));
+/// Where the ray of facet k goes, its cosine o.h, and its weight G2 (o.h) / (n.h) (Walter et al. 2007), o.n times its
+/// share of the albedo.
+vec3 facetRay(Facets f, vec3 towards, int k, out float c, out float weight) {
+  // A lattice of one step for all: 9.381966 is 16 times it, so that one pixel's facets are golden angles apart.
+  // Steep facets are rare, but look at lamps: of 1 - u = s^2, s even, there are more of them, each worth 2 s.
+  float s = 1.0 - (float(k) + f.first) / float(facets), phi = 6.28318531 * fract(9.38196601 * f.first + 0.381966011 * float(k));
+  float slope = f.alpha * sqrt(1.0 - s * s) / s;
   vec3 h = normalize(f.n + slope * (cos(phi) * f.t + sin(phi) * f.b));
   c = clamp(-dot(towards, h), 0.0, 1.0);
   vec3 r = towards + 2.0 * c * h;
   float up = dot(r, f.n), square = f.alpha * f.alpha;
-  weight = up <= 0.0 ? 0.0 : 2.0 * up * f.o * c / (dot(f.n, h)
+  weight = up <= 0.0 ? 0.0 : 4.0 * s * up * f.o * c / (dot(f.n, h)
     * (up * sqrt(mix(f.o * f.o, 1.0, square)) + f.o * sqrt(mix(up * up, 1.0, square))));
   return r;
 }
 /// How far from here what the middle of a body sees towards a point is.
 float farOfBody(vec3 x) {
   vec3 to = x - bodyPlace();
-  return distance(bodyPlace() + bodySees(to, 0.0).a * normalize(to), place);
+  return min(distance(bodyPlace() + bodySees(to, 0.0).a * normalize(to), place), 1e4);
+}
+/// What it sees of what a ray from here meets, first taken for so far away, then for as far as what is seen there. The
+/// ray stands for what is within an angle, which that middle sees as large as it is nearer.
+vec3 metByBody(vec3 r, float far, float angle) {
+  vec3 met = place + farOfBody(place + far * r) * r;
+  met = place + farOfBody(met) * r;
+  vec3 to = met - bodyPlace();
+  const float texels = ${(2 / Math.PI * probeSize).toFixed(1)}; // of a face to a radian
+  return bodySees(to, log2(max(1.0, texels * angle * distance(met, place) / max(length(to), 1e-6)))).rgb * bodyScale();
 }
 /// What a rough surface mirrors, times R(o.h): each facet shows the picture aside where its ray ends, first
 /// taken for as far away as what the mirror shows straight, then as what is there. Means stand for what
 /// is between rays (Williams 1983). Beyond the picture's edges the body's middle tells.
 vec3 blurred(vec3 n, vec3 towards, float roughness, bool coat, vec3 metal) {
   vec3 straight = reflect(towards, n), sum = vec3(0.0);
-  float ends = farOnAside(place + length(highest - lowest) * straight), weights = 0.0, c, weight, width;
+  float ends = farOnAside(place + length(highest - lowest) * straight), weights = 0.0, c, weight;
   vec2 middle = onAside(place + ends * straight);
   Facets all = facetsAbout(n, towards, roughness);
   for (int k = 0; k < facets; ++k) {
-    vec3 r = facetRay(all, towards, k, c, weight, width);
+    vec3 r = facetRay(all, towards, k, c, weight);
     if (weight <= 0.0) continue;
     vec3 met = place + ends * r;
-    float level = log2(max(1.0, width * length((onAside(met) - middle) * pictureSize)));
+    float level = log2(max(1.0, between * length((onAside(met) - middle) * pictureSize)));
     met = place + farOnAside(met) * r;
     bool isSeen;
     vec3 shown = textureLod(mirrored, onAside(met, isSeen), level).rgb;
-    if (!isSeen && hasBody) shown = bodySees(place + farOfBody(place + ends * r) * r - bodyPlace(), 1.0).rgb * bodyScale();
+    if (!isSeen && hasBody) shown = metByBody(r, ends, min(between * distance(r, straight), dot(r, n)));
     sum += weight * (coat ? coatReflectance(c) : metal) * shown;
     weights += weight;
   }
   return sum / max(weights, 1e-6);
 }
-/// The mean of what facets show of that.
-vec3 seenByFacets(vec3 n, vec3 towards, float roughness) {
+/// The mean of what facets show of that. Their albedo is the share of light that they throw back at once; the rest they
+/// spread.
+vec3 seenByFacets(vec3 n, vec3 towards, float roughness, out float albedo) {
   vec3 straight = reflect(towards, n), sum = vec3(0.0);
-  float far = min(1e4, farOfBody(place + length(highest - lowest) * straight)), weights = 0.0, c, weight, width;
+  float far = farOfBody(place + length(highest - lowest) * straight), weights = 0.0, c, weight;
   Facets all = facetsAbout(n, towards, roughness);
   for (int k = 0; k < facets; ++k) {
-    vec3 r = facetRay(all, towards, k, c, weight, width);
+    vec3 r = facetRay(all, towards, k, c, weight);
     if (weight <= 0.0) continue;
-    vec3 met = place + min(1e4, farOfBody(place + far * r)) * r;
-    met = place + min(1e4, farOfBody(met)) * r;
-    float level = log2(max(1.0, width * 81.0 * distance(r, straight))); // in texels of a face
-    sum += weight * bodySees(met - bodyPlace(), level).rgb;
+    sum += weight * metByBody(r, far, min(between * distance(r, straight), dot(r, n)));
     weights += weight;
   }
-  return sum * bodyScale() / max(weights, 1e-6);
+  albedo = min(1.0, weights / (all.o * float(facets)));
+  return sum / max(weights, 1e-6);
 }
 #endif
 #if BODIES
@@ -305,8 +318,13 @@ void main() {
   if (isFollowed != 0 && shows != ${shown.rough}) radiance += weight * seen.rgb;
   else if (shows == ${shown.own} && kind == ${kinds.coat}) radiance += weight * field * exposed;
 #if BODIES
-  if (kind == ${kinds.glossy})
-    radiance += weight * (hasBody ? seenByFacets(dot(normal, towards) > 0.0 ? -normalize(normal) : normalize(normal), towards, NUMBERS(5).w) : field * exposed);
+  if (kind == ${kinds.glossy} && hasBody) {
+    // The look has what is spread, and their albedo, for light from most sides.
+    float albedo;
+    vec4 most = NUMBERS(3);
+    vec3 shown = seenByFacets(dot(normal, towards) > 0.0 ? -normalize(normal) : normalize(normal), towards, NUMBERS(5).w, albedo);
+    radiance += weight * (albedo / most.w) * shown + most.rgb * tint * ((1.0 - albedo) / max(1.0 - most.w, 1e-3) - 1.0) * field * exposed;
+  } else if (kind == ${kinds.glossy}) radiance += weight * field * exposed;
 #endif
   bool isMirrored = isFollowed != 0 || shows == ${shown.rough};
   float told = tells == ${alphas.distance} ? distance(place, eye) : tells == ${alphas.straight} && isMirrored ? 0.0 : 1.0;
