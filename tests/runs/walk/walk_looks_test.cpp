@@ -35,6 +35,26 @@ TEST(WalkLooks, ReflectAsPassOneDoes) {
     }
 }
 
+// Light goes back from the first facet (f90 of it) or is spread by the facets among one another (f0): the rougher, the more.
+TEST(WalkLooks, AMetalSpreadsWhatItsFacetsDoNotThrowBackAtOnce) {
+  double before = 1.0;
+  for (const double roughness : {0.2, 0.4, 0.7, 1.0}) {
+    Material metal;
+    metal.base_color = {0.8, 0.5, 0.2};
+    metal.metallic = 1.0;
+    metal.roughness = roughness;
+    const WalkLook look = look_of(metal);
+    ASSERT_EQ(look.kind, WalkKind::glossy);
+    EXPECT_LT(look.f90, before);
+    before = look.f90;
+    const Rgb wanted = diffuse_reflectance(metal);
+    for (int band = 0; band < 3; ++band) {
+      EXPECT_NEAR(look.reflectance[band], look.f90 * metal.base_color[band], 0.02) << roughness;
+      EXPECT_NEAR(look.f0[band] + look.reflectance[band], wanted[band], 0.02) << roughness;
+    }
+  }
+}
+
 TEST(WalkLooks, AMirrorHasItsReflectanceAndNothingElse) {
   Material silver;
   silver.base_color = {0.93, 0.92, 0.9};
