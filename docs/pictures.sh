@@ -2,7 +2,7 @@
 # Makes the pictures of README.md and of the pages of docs anew: docs/pictures.sh [--compare] [--only REGEX] [PROGRAM]
 #   --compare      into a folder that goes again; says which of those in docs differ visibly (mean FLIP above 0.01), exit code 1
 #   --only REGEX   those alone whose name, without docs/ and .png, it fits
-# From a checkout; PROGRAM is ./meninas unless another one is named. All take a quarter of an hour, most of it the living room.
+# From a checkout; PROGRAM is ./meninas unless another one is named. The living room takes fifteen processor minutes, the rest some more.
 # oiiotool (openimageio-tools, which a build needs as well) cuts layers out of EXRs and puts pictures side by side.
 set -euo pipefail
 
