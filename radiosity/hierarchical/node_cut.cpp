@@ -1,6 +1,7 @@
 #include "radiosity/hierarchical/node_cut.h"
 
 #include "radiosity/transport/gathered_emission.h"
+#include "radiosity/transport/linear_system.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,14 +39,7 @@ NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<T
 }
 
 void append(const NodeCut& from, std::size_t receiver, NodeCut& to) {
-  const Transport& rows = from.rows;
-  const auto begin = static_cast<std::ptrdiff_t>(rows.row_begin[receiver]),
-             end = static_cast<std::ptrdiff_t>(rows.row_begin[receiver + 1]);
-  to.rows.columns.insert(to.rows.columns.end(), rows.columns.begin() + begin,
-                         rows.columns.begin() + end);
-  to.rows.weights.insert(to.rows.weights.end(), rows.weights.begin() + begin * rows.bands,
-                         rows.weights.begin() + end * rows.bands);
-  to.rows.row_begin.push_back(to.rows.columns.size());
+  append_row(from.rows, receiver, to.rows);
   to.receivers.push_back(from.receivers[receiver]);
   to.closure.push_back(from.closure[receiver]);
   to.emission.push_back(from.emission[receiver]);

@@ -37,6 +37,15 @@ Value row_product(const Transport& transport, std::size_t row, const std::vector
 
 } // namespace
 
+void append_row(const Transport& from, std::size_t row, Transport& to) {
+  const auto begin = static_cast<std::ptrdiff_t>(from.row_begin[row]),
+             end = static_cast<std::ptrdiff_t>(from.row_begin[row + 1]);
+  to.columns.insert(to.columns.end(), from.columns.begin() + begin, from.columns.begin() + end);
+  to.weights.insert(to.weights.end(), from.weights.begin() + begin * from.bands,
+                    from.weights.begin() + end * from.bands);
+  to.row_begin.push_back(to.columns.size());
+}
+
 template <typename Value>
 std::vector<Value> transport_product(const Transport& transport, const std::vector<Value>& x) {
   std::vector<Value> product(transport.size);

@@ -19,6 +19,9 @@ struct LinearSystem {
   std::vector<Value> source, reflectance; ///< S and rho, by row
 };
 
+/// Appends a row of one table to another with as many bands.
+void append_row(const Transport& from, std::size_t row, Transport& to);
+
 /// T x, for rows of any number; x has a value for every column
 template <typename Value>
 std::vector<Value> transport_product(const Transport& transport, const std::vector<Value>& x);

@@ -1,5 +1,6 @@
 #include "radiosity/transport/translucency.h"
 
+#include "radiosity/transport/linear_system.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -129,15 +130,6 @@ private:
   std::vector<std::uint8_t> has_;
   std::vector<std::uint32_t> columns_;
 };
-
-void append_row(const Transport& from, std::size_t row, Transport& to) {
-  const auto begin = static_cast<std::ptrdiff_t>(from.row_begin[row]),
-             end = static_cast<std::ptrdiff_t>(from.row_begin[row + 1]);
-  to.columns.insert(to.columns.end(), from.columns.begin() + begin, from.columns.begin() + end);
-  to.weights.insert(to.weights.end(), from.weights.begin() + begin * from.bands,
-                    from.weights.begin() + end * from.bands);
-  to.row_begin.push_back(to.columns.size());
-}
 
 Rgb share_of_total(const Rgb& part, const Rgb& total) {
   Rgb share(0.0);
