@@ -51,7 +51,9 @@ bool nothing_emits(const LightScene& light);
 /// What of pass one a view shows, by ElementId of the mesh.
 struct SeenElements {
   std::vector<std::uint8_t> elements; ///< 1: the element is seen; empty: every one is
-  std::vector<std::uint8_t> direct;   ///< 1: its direct light too is that of the field, and not found for each pixel
+  /// How much its direct light weighs that is looked up in the field, and not found for each pixel: the largest
+  /// throughput, in [0, 1], of the paths that do. Empty: 1 for every one.
+  std::vector<float> direct;
 };
 
 /// Pass one for one view: elements that it does not show are less exact, and take less time.

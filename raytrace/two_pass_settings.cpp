@@ -10,8 +10,8 @@ RenderQuality render_quality(Quality quality) {
     return {.samples = 16,
             .hit_shadow_rays = 8,
             .pixel_penumbra_rays = 256,
-            .vertex_penumbra_rays = 128,
-            .cell_tolerance = 0.02,
+            .vertex_penumbra_rays = 64,
+            .cell_tolerance = 0.04,
             .finest_cell = 0.2};
   case Quality::normal:
     return {.samples = 16,

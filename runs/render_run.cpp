@@ -67,13 +67,6 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   return std::move(result.rendering);
 }
 
-/// The preset asks for no more than a stored field knows.
-RunSettings settings_for(const IrradianceField& field, RunSettings settings) {
-  if (!settings.diffuse && field.indirect.empty())
-    settings.diffuse = DiffuseTerm::interpolated;
-  return settings;
-}
-
 /// Throws InputError where the field does not know what the picture builds on.
 void check_field(const std::filesystem::path& solution, const IrradianceField& field,
                  const RenderSettings& settings) {
@@ -119,7 +112,7 @@ LitScene read_shown_scene(const RenderRequest& request, Scene scene, const PassO
 ViewPicture picture_of_solution(const RenderRequest& request, const LitScene& lit,
                                 const Camera& camera, PictureSize size, const RunEvents& events,
                                 RunFigures& figures) {
-  const RunSettings known = settings_for(lit.field, request.settings);
+  const RunSettings known = settled(request.settings, lit.field);
   TwoPassSettings settings = two_pass_settings(known);
   settings.render = render_settings(known, size);
   const auto report = [&](const IrradianceField& field, ViewPicture& picture) {
@@ -155,9 +148,11 @@ static ViewPicture render_two_pass(const RenderRequest& request, Scene scene, co
     return picture_of_solution(request, lit, camera, size, events, figures);
   }
   const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
+  const RunSettings known = settled(request.settings, *prepared->light);
+  settings.render = render_settings(known, size);
   Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
   warn_of_solution(*prepared, figures.solver, figures.closure, events);
-  return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
+  return picture_of(prepared->scene, camera, known, std::move(rendering));
 }
 
 namespace {

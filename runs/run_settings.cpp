@@ -37,6 +37,14 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   return two_pass_settings(settings, render_mode(settings));
 }
 
+RunSettings settled(RunSettings settings, const LightScene& light, bool knows_indirect) {
+  if (!settings.diffuse && (!knows_indirect || !tells_light_apart(settings)))
+    settings.diffuse = DiffuseTerm::interpolated;
+  if (!settings.diffuse && light.finely_tessellated)
+    settings.diffuse = DiffuseTerm::direct;
+  return settings;
+}
+
 RenderSettings render_settings(const RunSettings& settings, PictureSize size) {
   RenderSettings render = two_pass_settings(settings).render;
   render.width = size.width;

@@ -190,8 +190,13 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
   return rendering;
 }
 
+RunSettings settled(const RunSettings& settings, const IrradianceField& field) {
+  return settled(settings, *field.scene, !field.indirect.empty());
+}
+
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
-                        const RunSettings& settings, const RunEvents& events, RunFigures& figures) {
+                        const RunSettings& asked, const RunEvents& events, RunFigures& figures) {
+  const RunSettings settings = settled(asked, lit.field);
   Stopwatch watch;
   const RenderSettings used = render_settings(settings, size);
   Rendering rendering = settings.view

@@ -58,10 +58,13 @@ struct ViewPicture {
 ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
                        Rendering rendering);
 
-/// Pass two, or the view for those who debug. Settings of pass one are not heeded,
+/// The settings as far as a preset leaves them to this field and its scene (run_settings.h).
+RunSettings settled(const RunSettings& settings, const IrradianceField& field);
+
+/// Pass two, or the view for those who debug, with settled settings. Settings of pass one are not heeded,
 /// but by the view `closure`; layers need a field that knows its mirrored part.
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
-                        const RunSettings& settings, const RunEvents& events, RunFigures& figures);
+                        const RunSettings& asked, const RunEvents& events, RunFigures& figures);
 
 /// A layer `lamp.NAME` of the light of each lamp, as bright as the settings say, and their sum in
 /// floats, in this order, for picture. Precondition: lamps are known apart.

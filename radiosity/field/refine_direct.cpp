@@ -144,8 +144,8 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
     settle_hanging(found.mesh, *values);
 }
 
-bool is_wanted(const DirectRefinement& wanted, std::size_t element) {
-  return wanted.elements.empty() || wanted.elements[element] != 0;
+double weight_of(const DirectRefinement& wanted, std::size_t element) {
+  return wanted.weights.empty() ? 1.0 : double{wanted.weights[element]};
 }
 
 /// Facets with edges have direct light of their own at their corners.
@@ -158,7 +158,7 @@ void light_facets_with_edges(const LightScene& light, const VertexSource& source
       edge_difference_error(found.mesh, from_source(found.field), wanted.scale);
   std::vector<ElementId> bent;
   for (std::uint32_t e = 0; e < bends.size(); ++e)
-    if (bends[e] > wanted.x && is_wanted(wanted, e) && has_means(found, e))
+    if (weight_of(wanted, e) * bends[e] > wanted.x && has_means(found, e))
       bent.push_back(ElementId{e});
   const std::vector<ElementId> facets = faces_with_shadow_edges(light, source, level, found, bent);
   if (facets.empty())
@@ -183,8 +183,8 @@ void refine_direct(const LightScene& light, const VertexSource& source,
   const std::size_t solved = element_count(found.mesh), most = solved + max_at_shadows(solved);
   found.field = std::move(result.field);
   std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
-  std::vector<std::uint8_t> elements = parts_of(light.mesh, refinement.elements, found.mesh);
-  light_facets_with_edges(light, source, {refinement.scale, refinement.x, elements},
+  std::vector<float> weights = parts_of(light.mesh, refinement.weights, found.mesh);
+  light_facets_with_edges(light, source, {refinement.scale, refinement.x, weights},
                           first_level - 1, found);
   std::uint32_t level = 0;
   for (; level < max_divisions; ++level) {
@@ -192,9 +192,8 @@ void refine_direct(const LightScene& light, const VertexSource& source,
     if (more < parts_more)
       break;
     std::vector<double> bends = bends_of(found, refinement.scale, level == 0);
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      if (elements[e] == 0)
-        bends[e] = 0.0;
+    for (std::size_t e = 0; e < weights.size(); ++e)
+      bends[e] *= double{weights[e]};
     const auto marked = max_bent(bends, refinement.x, more / parts_more);
     if (std::ranges::find(marked, 1) == marked.end())
       break;
@@ -203,7 +202,7 @@ void refine_direct(const LightScene& light, const VertexSource& source,
     const VertexSamples coarse = std::move(found);
     found = divided(light, coarse, marked);
     light_fresh(source, light.surfaces, first_level + level, coarse, found);
-    elements = parts_of(coarse.mesh, elements, found.mesh);
+    weights = parts_of(coarse.mesh, weights, found.mesh);
   }
   result.field = std::move(found.field);
   if (level > 0)

@@ -11,7 +11,9 @@
 // A new vertex that is covered, or dark under a low cover, keeps the interpolated value: light is
 // continued to where things stand.
 //
-// For one view only elements are divided whose direct light is looked up in the field (SeenElements::direct).
+// For one view only elements are divided whose direct light is looked up in the field (SeenElements::direct),
+// and what a path shows by a share of its light may be off by so much more: of an element of weight w the error
+// counts w times (importance: Smits, Arvo and Salesin 1992).
 //
 // At most max(N, 16384) new elements are made; if more exceed the bound, the largest errors come first.
 #pragma once
@@ -33,8 +35,7 @@ inline std::size_t max_at_shadows(std::size_t solved) {
 struct DirectRefinement {
   BendScale scale;
   double x = 0.0;                          ///< X; 0: none
-  /// By ElementId of the scene's mesh, 1: it may be; empty: every one may.
-  std::span<const std::uint8_t> elements = {};
+  std::span<const float> weights = {};     ///< by ElementId of the scene's mesh; empty: all weigh 1
 };
 
 /// `result` has the completed field of what was found,

@@ -58,7 +58,7 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
   const Progress& progress;
   std::span<const std::uint8_t> seen = {}; ///< by ElementId (SeenElements); empty: all are
-  std::span<const std::uint8_t> seen_direct = {}; ///< likewise, whose direct light is that of the field
+  std::span<const float> seen_direct = {}; ///< likewise, how much its direct light weighs that is the field's
 };
 
 /// Rays per vertex = times x max(min(N, 128), N / part).

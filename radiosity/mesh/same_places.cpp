@@ -21,17 +21,17 @@ std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to) {
   return same;
 }
 
-std::vector<std::uint8_t> parts_of(const ElementMesh& from, std::span<const std::uint8_t> marks,
-                                   const ElementMesh& to) {
-  std::vector<std::uint8_t> parts(marks.empty() ? 0 : element_count(to), 0);
+std::vector<float> parts_of(const ElementMesh& from, std::span<const float> weights,
+                            const ElementMesh& to) {
+  std::vector<float> parts(weights.empty() ? 0 : element_count(to), 0.0F);
   if (parts.empty())
     return parts;
   const std::vector<CellId> now = same_cells(from, to);
-  for (std::size_t e = 0; e < marks.size(); ++e)
-    if (marks[e] != 0) {
-      const MeshCell& cell = to.cells[index(now[index(from.cell_of_element[e])])];
-      std::fill_n(parts.begin() + cell.first_element, cell.element_count, std::uint8_t{1});
-    }
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    const MeshCell& cell = to.cells[index(now[index(from.cell_of_element[e])])];
+    for (float& part : std::span(parts).subspan(cell.first_element, cell.element_count))
+      part = std::max(part, weights[e]);
+  }
   return parts;
 }
 

@@ -41,10 +41,10 @@ bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> divi
 /// the same cell in `to`, a mesh of the same roots that has all cells of `from`.
 std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
 
-/// By ElementId of `to`, a mesh as above: the mark of the element of `from` that it is part of.
-/// Of cells with several elements any mark counts for all. `marks` empty: so is the result.
-std::vector<std::uint8_t> parts_of(const ElementMesh& from, std::span<const std::uint8_t> marks,
-                                   const ElementMesh& to);
+/// By ElementId of `to`, a mesh as above: the weight, at least 0, of the element of `from` that it is part of.
+/// Of cells with several elements the largest counts for all. `weights` empty: so is the result.
+std::vector<float> parts_of(const ElementMesh& from, std::span<const float> weights,
+                            const ElementMesh& to);
 
 /// The vertices of an element of one mesh in another that it was divided into, `cell` its cell there:
 /// none where it is not known to be the same, as where something stands.

@@ -33,20 +33,27 @@ struct Leg {
   Backs backs = Backs::absorb;
 };
 
-/// Marks; several threads may set the same.
+/// The largest value that was given for each element, by any thread.
+template <typename Value>
 class Marks {
 public:
   explicit Marks(std::size_t count) : marks_(count) {}
-  void set(std::uint32_t element) { marks_[element].store(1, std::memory_order_relaxed); }
-  std::vector<std::uint8_t> list() const { return {marks_.begin(), marks_.end()}; }
+  void set(std::uint32_t element, Value value) {
+    std::atomic<Value>& mark = marks_[element];
+    for (Value now = mark.load(std::memory_order_relaxed);
+         now < value && !mark.compare_exchange_weak(now, value, std::memory_order_relaxed);) {
+    }
+  }
+  std::vector<Value> list() const { return {marks_.begin(), marks_.end()}; }
 
 private:
-  std::vector<std::atomic<std::uint8_t>> marks_;
+  std::vector<std::atomic<Value>> marks_;
 };
 
-/// What is seen, and of what direct light is that of the field.
+/// What is seen, and how much direct light weighs that is the field's.
 struct SeenMarks {
-  Marks elements, direct;
+  Marks<std::uint8_t> elements;
+  Marks<float> direct;
   bool direct_at_sights; ///< is found for each pixel
 };
 
@@ -58,17 +65,17 @@ struct Met {
   Direction along; ///< of the leg
 };
 
-/// The element, and that of the other side of what is translucent.
-void mark(const Met& met, bool by_sight, SeenMarks& seen) {
+/// The element that a leg meets, and that of the other side of what is translucent.
+void mark(const Met& met, const Leg& leg, SeenMarks& seen) {
   if (met.face.side == FaceRecord::nothing)
     return;
   const TriangleId triangle = met.hit.triangle;
   const glm::vec2 b(met.hit.barycentric);
   const glm::vec2 uv = landing_uv(met.face, met.light.surfaces, index(triangle), b.x, b.y);
   const auto set = [&](std::uint32_t element) {
-    seen.elements.set(element);
-    if (!by_sight || !seen.direct_at_sights)
-      seen.direct.set(element);
+    seen.elements.set(element, 1);
+    if (!leg.sight || !seen.direct_at_sights)
+      seen.direct.set(element, static_cast<float>(std::min(largest(leg.throughput), 1.0)));
   };
   set(field_point(met.light.landing.elements, met.face.side, uv).element);
   if (const auto behind =
@@ -130,21 +137,24 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
       continue;
     const std::size_t face = 2 * std::size_t{index(hit->triangle)} + (hit->front ? 0 : 1);
     const Met met{light, *hit, light.landing.faces[face], leg.ray.direction};
-    mark(met, leg.sight, seen);
+    mark(met, leg, seen);
     const auto u = sobol4(number, hash(k, 0x5ee2));
     continue_by_lobes(met, leg, max_bounces, {u[0], u[1]}, legs);
   }
 }
 
-/// Those elements and all that share a vertex with one.
-std::vector<std::uint8_t> with_neighbours(const ElementMesh& mesh, const VertexElements& around,
-                                          const std::vector<std::uint8_t>& marked) {
-  std::vector<std::uint8_t> more = marked;
+/// Of an element and all that share a vertex with it the largest mark.
+template <typename Value>
+std::vector<Value> with_neighbours(const ElementMesh& mesh, const VertexElements& around,
+                                   const std::vector<Value>& marks) {
+  std::vector<Value> more = marks;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
-    if (std::ranges::any_of(elements, [&](ElementId e) { return marked[index(e)] != 0; }))
-      for (const ElementId e : elements)
-        more[index(e)] = 1;
+    Value most{};
+    for (const ElementId e : elements)
+      most = std::max(most, marks[index(e)]);
+    for (const ElementId e : elements)
+      more[index(e)] = std::max(more[index(e)], most);
   }
   return more;
 }
@@ -158,7 +168,7 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
   const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart));
   const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart));
   const std::size_t count = element_count(light.mesh);
-  SeenMarks marks{Marks(count), Marks(count), settings.diffuse.term == DiffuseTerm::direct};
+  SeenMarks marks{Marks<std::uint8_t>(count), Marks<float>(count), settings.diffuse.term == DiffuseTerm::direct};
   tbb::parallel_for(std::uint32_t{0}, rows, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t number = row * columns + column;

@@ -5,6 +5,7 @@
 // Of what a sight (sight.h) ends at, direct light is found for each pixel where the diffuse term says so (diffuse_term.h);
 // of what lobes, the reflections of panes and refraction show it is that of the field.
 // The elements in which they end are seen, and those that share a vertex with them: pixels in between see these.
+// Direct light of the field weighs as much as the largest throughput of these paths.
 // Radiosity with as much care as the view needs: importance (Smits, Arvo and Salesin 1992).
 #pragma once
 

@@ -25,8 +25,6 @@ RunSettings settings_for(const SolvedRoom& room, const RestingView& view) {
   const auto named = std::ranges::find_if(cameras, [&](const Camera& camera) { return view.camera == camera.name; });
   if (named != cameras.end() && is_panorama(named->projection))
     settings.projection = Projection::perspective;
-  if (!settings.diffuse && room.lit.field.indirect.empty())
-    settings.diffuse = DiffuseTerm::interpolated;
   settings.display = DisplayChoice{view.exposure, room.picture.transform};
   return settings;
 }

@@ -8,10 +8,11 @@
 namespace meninas {
 
 ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, PictureSize size,
-                         const RunSettings& settings, double loading, int threads) {
+                         const RunSettings& asked, double loading, int threads) {
   constexpr double started = 0.03;                        // program and its libraries
   constexpr double busy = 0.9;                            // of the threads, on average
   constexpr double encoded_pixel = 1.5e-7;
+  const RunSettings settings = settled(asked, *prepared.light);
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = size.width;
   two_pass.render.height = size.height;

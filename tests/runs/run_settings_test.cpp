@@ -1,5 +1,7 @@
 #include "runs/run_settings.h"
+#include "raytrace/two_pass.h"
 #include "runs/steering/setting_options.h"
+#include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,28 @@ TEST(DiffuseTerm, IsInterpolatedWherePassOneIsAllThereIs) {
   EXPECT_EQ(diffuse_term(settings), DiffuseTerm::direct);
   settings.interpolation = Interpolation::average;
   EXPECT_EQ(diffuse_term(settings), DiffuseTerm::interpolated);
+}
+
+// Where small surfaces make up the mesh a draft, too, finds direct light where it is seen; it is told otherwise as ever.
+TEST(DiffuseTerm, IsDirectWhereTheMeshIsFinerThanPicturesNeed) {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  const auto prepared = prepare_scene(std::move(scene), {});
+  LightScene coarse = *prepared->light, fine = *prepared->light;
+  coarse.finely_tessellated = false;
+  fine.finely_tessellated = true;
+  const auto term = [](const RunSettings& settings) { return diffuse_term(settings); };
+  RunSettings draft = with_quality(Quality::draft);
+  EXPECT_EQ(term(settled(draft, coarse)), DiffuseTerm::interpolated);
+  EXPECT_EQ(term(settled(draft, fine)), DiffuseTerm::direct);
+  EXPECT_EQ(term(settled(draft, fine, false)), DiffuseTerm::interpolated);
+  EXPECT_EQ(term(settled(with_quality(Quality::normal), coarse, false)), DiffuseTerm::interpolated);
+  draft.mode = PictureMode::radiosity;
+  EXPECT_EQ(term(settled(draft, fine)), DiffuseTerm::interpolated);
+  draft = with_quality(Quality::draft);
+  draft.diffuse = DiffuseTerm::interpolated;
+  EXPECT_EQ(term(settled(draft, fine)), DiffuseTerm::interpolated);
 }
 
 TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {

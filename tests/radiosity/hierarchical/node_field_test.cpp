@@ -130,7 +130,7 @@ TEST(NodeField, IsThatOfSmallSurfacesAsTheyWereSolved) {
   // by rows of 32 to 128 rays, which 32^-0.75 of the light is off at each and little in the mean.
   std::vector<std::uint8_t> one(element_count(l->mesh), 0);
   one[0] = 1;
-  const RadiositySolution view = solve_for_view(l->light, settings, {one, one});
+  const RadiositySolution view = solve_for_view(l->light, settings, {one, std::vector<float>(one.begin(), one.end())});
   EXPECT_LT(view.form_factor_rays, nodes.form_factor_rays);
   const Difference unseen = difference(*l, view, rows, on_boxes);
   EXPECT_LT(unseen.rms, 2.0 * std::pow(32.0, -0.75) + 4.0 * x);

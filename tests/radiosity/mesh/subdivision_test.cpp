@@ -44,28 +44,28 @@ TEST(MeshDivision, NothingMarkedNothingChanged) {
   EXPECT_TRUE(same.hanging.empty());
 }
 
-// What a division makes of marked elements is marked: as much area, in the same places.
-TEST(MeshDivision, PartsHaveTheMarksOfTheirElements) {
+// What a division makes of elements weighs as much: as much in all, in the same places.
+TEST(MeshDivision, PartsHaveTheWeightsOfTheirElements) {
   for (const Scene& scene : scenes()) {
     const Meshed m = meshed(scene, {.element_size = 0.3});
     const ElementMesh finer = divided_at_random(m, 3, 0.2, 7);
-    std::vector<std::uint8_t> marks(element_count(m.mesh), 0);
-    for (std::size_t e = 0; e < marks.size(); ++e)
-      marks[e] = index(m.mesh.cell_of_element[e]) % 3 == 0 ? 1 : 0; // all of a cell, or none
-    const std::vector<std::uint8_t> parts = parts_of(m.mesh, marks, finer);
+    std::vector<float> weights(element_count(m.mesh), 0.0F);
+    for (std::size_t e = 0; e < weights.size(); ++e)
+      weights[e] = 0.5F * static_cast<float>(index(m.mesh.cell_of_element[e]) % 3); // one for a cell
+    const std::vector<float> parts = parts_of(m.mesh, weights, finer);
     ASSERT_EQ(parts.size(), element_count(finer));
     double before = 0.0, after = 0.0, all = 0.0;
-    for (std::size_t e = 0; e < marks.size(); ++e) {
-      before += marks[e] * m.mesh.area[e];
+    for (std::size_t e = 0; e < weights.size(); ++e) {
+      before += double{weights[e]} * m.mesh.area[e];
       all += m.mesh.area[e];
     }
     for (std::size_t e = 0; e < parts.size(); ++e)
-      after += parts[e] * finer.area[e];
+      after += double{parts[e]} * finer.area[e];
     EXPECT_NEAR(after, before, 1e-9 * all);
     for (std::uint32_t e = 0; e < parts.size(); ++e) {
       const MeshCell& cell = cell_of(finer, ElementId{e});
       const Vec2 uv = patch_uv_of(finer, cell, Vec2(0.3, 0.3));
-      EXPECT_EQ(parts[e], marks[index(locate(m.mesh, cell.side, uv).element)]) << e;
+      EXPECT_EQ(parts[e], weights[index(locate(m.mesh, cell.side, uv).element)]) << e;
     }
     EXPECT_TRUE(parts_of(m.mesh, {}, finer).empty());
   }

@@ -32,19 +32,20 @@ RenderSettings small_picture() {
 }
 
 /// Names of the nodes of which an element is marked.
+template <typename Mark>
 std::set<std::string> marked_nodes(const Scene& scene, const Camera& camera,
-                                   std::vector<std::uint8_t> SeenElements::*marks, DiffuseTerm term) {
+                                   std::vector<Mark> SeenElements::*marks, DiffuseTerm term) {
   const auto prepared = prepare_scene(scene, room_settings());
   const LightScene& light = *prepared->light;
   RenderSettings settings = small_picture();
   settings.diffuse.term = term;
-  const std::vector<std::uint8_t> seen = seen_elements(light, camera, settings).*marks;
+  const std::vector<Mark> seen = seen_elements(light, camera, settings).*marks;
   std::set<std::string> names;
   for (const MeshSide& side : light.mesh.sides) {
     const Patch& patch = light.surfaces.patches[index(side.patch)];
     const TriangleId triangle = patch.triangles[0];
     for (std::uint32_t k = 0; k < side.element_count; ++k)
-      if (seen[side.first_element + k] != 0)
+      if (seen[side.first_element + k] != Mark{})
         names.insert(light.scene.nodes[index(light.scene.triangles[index(triangle)].node)].name);
   }
   return names;
@@ -119,6 +120,17 @@ TEST(SeenElements, HaveTheirDirectLightLookedUpWhereNoSightEnds) {
   EXPECT_TRUE(looked_up_nodes(block, aslant).contains("x0"));
 }
 
+// A wall behind a mirror of 0.3 weighs 0.3, one that is seen straight 1.
+TEST(SeenElements, WeighByTheThroughputOfThePathsThatShowThem) {
+  const auto heaviest = [](const Scene& scene) {
+    const auto prepared = prepare_scene(scene, room_settings());
+    const auto weights = seen_elements(*prepared->light, at_wall, small_picture()).direct;
+    return double{*std::ranges::max_element(weights)};
+  };
+  EXPECT_EQ(heaviest(room(diffuse(0.5), diffuse(0.5))), 1.0);
+  EXPECT_NEAR(heaviest(room(diffuse(0.5), mirror(0.3))), 0.3, 1e-6); // floats
+}
+
 // By a lobe a ceiling above a floor of satin metal; by a matt floor nothing else.
 TEST(SeenElements, AreThoseThatLobesShow) {
   const auto seen = seen_nodes(room(metal(Rgb(0.8), 0.4), diffuse(0.5)), at_floor);
@@ -167,7 +179,8 @@ TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
   for (std::size_t e = 0; e < one.size(); e += one.size() / 7) {
     std::ranges::fill(one, 0);
     one[e] = 1;
-    const RadiositySolution view = solve_for_view(prepared->light, settings, {one, one});
+    const std::vector<float> direct(one.begin(), one.end());
+    const RadiositySolution view = solve_for_view(prepared->light, settings, {one, direct});
     double worst = 0.0, mean = 0.0;
     for (std::size_t v = 0; v < all.field.indirect.size() && v < view.field.indirect.size(); ++v) {
       worst = std::max(worst, std::abs(double{view.field.indirect[v].g} -
@@ -179,7 +192,8 @@ TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
   }
 }
 
-// Elements are divided at edges of shadows where their direct light is looked up, and nowhere else.
+// Elements are divided at edges of shadows where their direct light is looked up, and nowhere else;
+// less where it is seen by way of dark mirrors.
 TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
   PassOneSettings settings = room_settings();
   settings.interpolation.shadow_bend = 0.01;
@@ -187,15 +201,18 @@ TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
   add_polygon(scene, "shade", {{0.6, 1.0, 0.6}, {0.6, 1.0, 1.4}, {1.4, 1.0, 1.4}, {1.4, 1.0, 0.6}}, diffuse(0.5));
   const auto prepared = prepare_scene(std::move(scene), settings);
   const std::size_t solved = element_count(prepared->light->mesh);
-  const std::vector<std::uint8_t> all(solved, 1), none(solved, 0);
-  const auto elements = [&](const std::vector<std::uint8_t>& direct) {
+  const std::vector<std::uint8_t> all(solved, 1);
+  const auto elements = [&](const std::vector<float>& direct) {
     return element_count(solve_for_view(prepared->light, settings, {all, direct}).field.mesh());
   };
-  std::vector<std::uint8_t> half = none;
-  std::fill_n(half.begin(), solved / 2, std::uint8_t{1});
-  EXPECT_EQ(elements(none), solved);
+  const auto weighing = [&](float weight) { return std::vector<float>(solved, weight); };
+  std::vector<float> half = weighing(0.0F);
+  std::fill_n(half.begin(), solved / 2, 1.0F);
+  EXPECT_EQ(elements(weighing(0.0F)), solved);
   EXPECT_GT(elements(half), solved);
-  EXPECT_GT(elements(all), elements(half));
+  EXPECT_GT(elements(weighing(1.0F)), elements(half));
+  EXPECT_GT(elements(weighing(1.0F)), elements(weighing(0.1F)));
+  EXPECT_GT(elements(weighing(0.1F)), elements(weighing(1e-4F)));
 }
 
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
@@ -203,7 +220,8 @@ TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
   const std::vector<std::uint8_t> everything(element_count(prepared->light->mesh), 1);
   const RadiositySolution all = solve_pass_one(prepared->light, settings),
-                          view = solve_for_view(prepared->light, settings, {everything, everything});
+                          view = solve_for_view(prepared->light, settings,
+                                                {everything, std::vector<float>(everything.size(), 1.0F)});
   EXPECT_EQ(all.field.irradiance, view.field.irradiance);
   EXPECT_EQ(all.field.indirect, view.field.indirect);
 }
