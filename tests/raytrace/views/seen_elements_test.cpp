@@ -211,8 +211,9 @@ TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
   EXPECT_EQ(elements(weighing(0.0F)), solved);
   EXPECT_GT(elements(half), solved);
   EXPECT_GT(elements(weighing(1.0F)), elements(half));
-  EXPECT_GT(elements(weighing(1.0F)), elements(weighing(0.1F)));
-  EXPECT_GT(elements(weighing(0.1F)), elements(weighing(1e-4F)));
+  EXPECT_GT(elements(weighing(1.0F)), elements(weighing(0.5F)));
+  EXPECT_GT(elements(weighing(0.5F)), solved);
+  EXPECT_EQ(elements(weighing(1e-4F)), solved);
 }
 
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
