@@ -7,9 +7,9 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -196,9 +196,14 @@ void measure_runs(std::vector<ContactSegment>& segments, double grain) {
 
 /// By PatchId, bit k: edge k is shared with another patch that faces the same way in its plane.
 std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
+  struct Edge {
+    std::array<std::uint32_t, 2> ends; ///< places, the lower first
+    std::uint32_t patch;
+    std::uint8_t bit;
+  };
   VertexWelder welder(16.0 * surfaces.tolerance + 1e-300);
   std::vector<Point3> places;
-  std::map<std::array<std::uint32_t, 2>, std::vector<std::pair<std::uint32_t, std::size_t>>> edges;
+  std::vector<Edge> edges;
   std::vector<std::uint8_t> inner(surfaces.patches.size(), 0);
   std::vector<std::uint32_t> in_plane(2 * surfaces.planes.size(), 0);
   const auto face_of = [&](const Patch& patch) {
@@ -210,22 +215,24 @@ std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
   for (const Patch& patch : surfaces.patches)
     ++in_plane[face_of(patch)];
   for (std::uint32_t p = 0; p < surfaces.patches.size(); ++p) {
-    const Patch& patch = surfaces.patches[p];
-    const std::uint32_t face = face_of(patch);
+    const std::uint32_t face = face_of(surfaces.patches[p]);
     if (in_plane[face] < 2)
       continue;
-    const auto polygon = polygon_of(patch);
-    const auto place = [&](std::size_t k) {
-      return index(welder.vertex_at(face, polygon[k % polygon.size()], places));
-    };
+    const auto polygon = polygon_of(surfaces.patches[p]);
+    std::array<std::uint32_t, 4> place{};
     for (std::size_t k = 0; k < polygon.size(); ++k)
-      edges[{std::min(place(k), place(k + 1)), std::max(place(k), place(k + 1))}].emplace_back(p,
-                                                                                              k);
+      place[k] = index(welder.vertex_at(face, polygon[k], places));
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const auto [low, high] = std::minmax(place[k], place[(k + 1) % polygon.size()]);
+      edges.push_back({{low, high}, p, static_cast<std::uint8_t>(1U << k)});
+    }
   }
-  for (const auto& [ends, at] : edges)
-    if (at.size() > 1)
-      for (const auto& [p, k] : at)
-        inner[p] |= static_cast<std::uint8_t>(1U << k);
+  tbb::parallel_sort(edges.begin(), edges.end(),
+                     [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+  for (std::size_t k = 1; k < edges.size(); ++k)
+    if (edges[k].ends == edges[k - 1].ends)
+      for (const Edge& edge : {edges[k - 1], edges[k]})
+        inner[edge.patch] |= edge.bit;
   return inner;
 }
 

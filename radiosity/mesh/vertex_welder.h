@@ -4,7 +4,6 @@
 
 #include "radiosity/mesh/element_mesh.h"
 
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -13,11 +12,7 @@ namespace meninas {
 class VertexWelder {
 public:
   /// Points are the same within about `grain`, metres.
-  /// `expected`: about as many as there will be.
-  explicit VertexWelder(double grain, std::size_t expected = 0)
-      : grain_(grain), slots_(std::bit_ceil(2 * expected + 16), empty) {
-    known_.reserve(expected);
-  }
+  explicit VertexWelder(double grain) : grain_(grain), slots_(16, empty) {}
 
   /// The vertex there, which is appended if it is new.
   ElementVertexId vertex_at(std::uint64_t surface_side, const Point3& x,
@@ -41,6 +36,8 @@ public:
     const std::uint32_t known = slots_[slot_of(key_of(surface_side, x))];
     return known == empty ? none<ElementVertexId> : known_[known].vertex;
   }
+
+  bool is_one_place(const Point3& a, const Point3& b) const { return key_of(0, a) == key_of(0, b); }
 
 private:
   struct Key {
