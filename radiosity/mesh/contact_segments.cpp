@@ -7,6 +7,7 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 
 #include <cmath>
@@ -58,8 +59,10 @@ public:
       middles[t] = 0.5 * (boxes_[t].low + boxes_[t].high);
       members_.push_back(t);
     }
-    if (!members_.empty())
-      build(members_, 0, middles);
+    if (members_.empty())
+      return;
+    nodes_.resize(nodes_over(members_.size()));
+    build(members_, 0, 0, middles);
   }
 
   template <typename Use>
@@ -90,26 +93,44 @@ private:
     std::uint32_t count = 0;
   };
 
-  std::uint32_t build(std::span<std::uint32_t> members, std::uint32_t first,
-                      const std::vector<Point3>& middles) {
-    constexpr std::size_t max_in_leaf = 4;
-    const auto number = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
+  static constexpr std::size_t max_in_leaf = 4;
+
+  /// Of halves, halves of these and so on, down to leaves.
+  static std::size_t nodes_over(std::size_t members) {
+    std::size_t parts = 1; // of which some have one member more than others
+    while (members / parts > max_in_leaf)
+      parts *= 2;
+    const std::size_t divided = members / parts == max_in_leaf ? members % parts : 0;
+    return 2 * (parts + divided) - 1;
+  }
+
+  /// The children follow node `number`, the first with all that is below it before the second.
+  void build(std::span<std::uint32_t> members, std::uint32_t first, std::size_t number,
+             const std::vector<Point3>& middles) {
+    constexpr std::size_t large = 4096; // enough to share out
+    Node& node = nodes_[number];
     if (members.size() <= max_in_leaf) {
       for (const std::uint32_t t : members)
-        nodes_[number].box.add(boxes_[t]);
-      nodes_[number].first = first;
-      nodes_[number].count = static_cast<std::uint32_t>(members.size());
-      return number;
+        node.box.add(boxes_[t]);
+      node.first = first;
+      node.count = static_cast<std::uint32_t>(members.size());
+      return;
     }
     const std::uint32_t half = split_at_median(members, middles, 3);
-    const std::uint32_t a = build(members.first(half), first, middles);
-    const std::uint32_t b = build(members.subspan(half), first + half, middles);
-    nodes_[number].first = a;
-    nodes_[number].second = b;
-    nodes_[number].box = nodes_[a].box;
-    nodes_[number].box.add(nodes_[b].box);
-    return number;
+    node.first = static_cast<std::uint32_t>(number + 1);
+    node.second = static_cast<std::uint32_t>(number + 1 + nodes_over(half));
+    const auto build_first = [&] { build(members.first(half), first, node.first, middles); };
+    const auto build_second = [&] {
+      build(members.subspan(half), first + half, node.second, middles);
+    };
+    if (members.size() < large) {
+      build_first();
+      build_second();
+    } else {
+      tbb::parallel_invoke(build_first, build_second);
+    }
+    node.box = nodes_[node.first].box;
+    node.box.add(nodes_[node.second].box);
   }
 
   std::vector<Box> boxes_;
