@@ -8,6 +8,7 @@
 #include "scenes/rays/mixed_scales.h"
 #include "scenes/repair/retriangulation.h"
 #include "scenes/materials/smooth_surfaces.h"
+#include "scenes/surfaces/patches.h"
 #include "scenes/surfaces/plane_classes.h"
 #include "scenes/stopwatch.h"
 

@@ -61,7 +61,7 @@ public:
     }
     if (members_.empty())
       return;
-    nodes_.resize(nodes_over(members_.size()));
+    nodes_.resize(nodes_of_halves(members_.size(), max_in_leaf));
     build(members_, 0, 0, middles);
   }
 
@@ -94,16 +94,6 @@ private:
   };
 
   static constexpr std::size_t max_in_leaf = 4;
-
-  /// Of halves, halves of these and so on, down to leaves.
-  static std::size_t nodes_over(std::size_t members) {
-    std::size_t parts = 1; // of which some have one member more than others
-    while (members / parts > max_in_leaf)
-      parts *= 2;
-    const std::size_t divided = members / parts == max_in_leaf ? members % parts : 0;
-    return 2 * (parts + divided) - 1;
-  }
-
   /// The children follow node `number`, the first with all that is below it before the second.
   void build(std::span<std::uint32_t> members, std::uint32_t first, std::size_t number,
              const std::vector<Point3>& middles) {
@@ -118,7 +108,7 @@ private:
     }
     const std::uint32_t half = split_at_median(members, middles, 3);
     node.first = static_cast<std::uint32_t>(number + 1);
-    node.second = static_cast<std::uint32_t>(number + 1 + nodes_over(half));
+    node.second = static_cast<std::uint32_t>(number + 1 + nodes_of_halves(half, max_in_leaf));
     const auto build_first = [&] { build(members.first(half), first, node.first, middles); };
     const auto build_second = [&] {
       build(members.subspan(half), first + half, node.second, middles);

@@ -2,6 +2,7 @@
 // share, then the gathering is kept as far as one plane really holds all their vertices.
 #include "scenes/surfaces/plane_classes.h"
 
+#include "scenes/surfaces/patches.h"
 #include "scenes/surfaces/plane_search.h"
 #include "scenes/surfaces/principal_axes.h"
 #include "scenes/surfaces/regions.h"
@@ -277,6 +278,12 @@ void find_plane_classes(const Scene& scene, SurfaceModel& model) {
       model.plane_of_triangle[index(triangle)] = classes.of_region[s];
     }
   }
+}
+
+SurfaceModel find_surfaces(const Scene& scene) {
+  SurfaceModel model = find_patches(scene);
+  find_plane_classes(scene, model);
+  return model;
 }
 
 } // namespace meninas

@@ -1,12 +1,9 @@
-// The two steps of find_surfaces, for who changes triangles between them.
+// The second step of find_surfaces, after find_patches.
 #pragma once
 
 #include "scenes/surfaces/surfaces.h"
 
 namespace meninas {
-
-/// Surfaces and patches alone: there are no planes, and every plane class is none.
-SurfaceModel find_patches(const Scene& scene);
 
 /// Adds the plane classes: surfaces whose vertices are all within tolerance of one plane, whichever
 /// way they face, are of one class.

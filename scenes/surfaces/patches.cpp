@@ -1,7 +1,6 @@
-#include "scenes/surfaces/surfaces.h"
+#include "scenes/surfaces/patches.h"
 
 #include "scenes/surfaces/patch_pairs.h"
-#include "scenes/surfaces/plane_classes.h"
 #include "scenes/surfaces/precision.h"
 #include "scenes/surfaces/regions.h"
 #include "scenes/surfaces/topology.h"
@@ -154,12 +153,6 @@ SurfaceModel find_patches(const Scene& scene) {
   const Regions regions = grow_regions(scene, shapes, topology, tolerances);
   add_patches(scene, shapes, pair_triangles(scene, regions, topology), model);
   add_surfaces(scene, regions, model);
-  return model;
-}
-
-SurfaceModel find_surfaces(const Scene& scene) {
-  SurfaceModel model = find_patches(scene);
-  find_plane_classes(scene, model);
   return model;
 }
 
