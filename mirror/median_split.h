@@ -33,4 +33,13 @@ std::uint32_t split_at_median(std::span<std::uint32_t> members, const Places& pl
   return half;
 }
 
+/// The nodes of a tree over so many members that is divided into halves down to leaves.
+inline std::size_t nodes_of_halves(std::size_t members, std::size_t max_in_leaf) {
+  std::size_t parts = 1; // of which some have one member more than others
+  while (members / parts > max_in_leaf)
+    parts *= 2;
+  const std::size_t divided = members / parts == max_in_leaf ? members % parts : 0;
+  return 2 * (parts + divided) - 1;
+}
+
 } // namespace meninas

@@ -8,6 +8,8 @@
 #include "scenes/rays/mixed_scales.h"
 #include "scenes/repair/retriangulation.h"
 #include "scenes/materials/smooth_surfaces.h"
+#include "scenes/surfaces/patches.h"
+#include "scenes/surfaces/plane_classes.h"
 #include "scenes/stopwatch.h"
 
 #include <algorithm>
@@ -29,9 +31,10 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   if (settings.form_factors.method == FormFactorMethod::analytic ||
       settings.form_factors.max_bounces == 0)
     spread_coats(prepared->scene);
-  prepared->surfaces = find_surfaces(prepared->scene);
+  prepared->surfaces = find_patches(prepared->scene);
   if (retriangulate_slivers(prepared->scene, prepared->surfaces))
-    prepared->surfaces = find_surfaces(prepared->scene);
+    prepared->surfaces = find_patches(prepared->scene);
+  find_plane_classes(prepared->scene, prepared->surfaces);
   prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);
   std::ranges::move(warnings, std::back_inserter(prepared->plan.warnings));
   prepared->seconds.plan = watch.lap();

@@ -1,5 +1,7 @@
 #include "radiosity/field/vertex_places.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -191,14 +193,13 @@ std::vector<Receiver> vertex_receivers(const ElementMesh& mesh) {
 }
 
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh, const VertexElements& all) {
-  std::vector<Receiver> receivers;
-  receivers.reserve(mesh.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+  std::vector<Receiver> receivers(mesh.vertices.size());
+  tbb::parallel_for(std::size_t{0}, receivers.size(), [&](std::size_t v) {
     const MeshSide& side =
         mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
-    receivers.push_back(
-        {gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent, side.coat});
-  }
+    receivers[v] = {gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent,
+                    side.coat};
+  });
   return receivers;
 }
 

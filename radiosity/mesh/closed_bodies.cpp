@@ -4,12 +4,14 @@
 #include "scenes/surfaces/shells.h"
 #include "scenes/surfaces/topology.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <span>
 
 namespace meninas {
@@ -207,10 +209,13 @@ public:
       if (bodies.of_triangle[t] != no_body)
         triangles_[index(surfaces.plane_of_triangle[t])].push_back(TriangleId{t});
     // A floor before what stands on it: little is left to cut after it.
-    for (auto& in_plane : triangles_)
-      std::ranges::stable_sort(in_plane, std::greater{}, [&](TriangleId t) {
-        return glm::length(area_vector(corners(scene, t)));
-      });
+    tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t plane) {
+      std::vector<std::pair<double, TriangleId>> by_area;
+      for (const TriangleId t : triangles_[plane])
+        by_area.emplace_back(-glm::length(area_vector(corners(scene, t))), t);
+      std::ranges::sort(by_area);
+      std::ranges::copy(by_area | std::views::values, triangles_[plane].begin());
+    });
   }
 
   bool are_asked_too_much() const { return compared > max_compared; }

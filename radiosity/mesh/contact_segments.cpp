@@ -7,9 +7,10 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -58,8 +59,10 @@ public:
       middles[t] = 0.5 * (boxes_[t].low + boxes_[t].high);
       members_.push_back(t);
     }
-    if (!members_.empty())
-      build(members_, 0, middles);
+    if (members_.empty())
+      return;
+    nodes_.resize(nodes_of_halves(members_.size(), max_in_leaf));
+    build(members_, 0, 0, middles);
   }
 
   template <typename Use>
@@ -90,26 +93,34 @@ private:
     std::uint32_t count = 0;
   };
 
-  std::uint32_t build(std::span<std::uint32_t> members, std::uint32_t first,
-                      const std::vector<Point3>& middles) {
-    constexpr std::size_t max_in_leaf = 4;
-    const auto number = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
+  static constexpr std::size_t max_in_leaf = 4;
+  /// The children follow node `number`, the first with all that is below it before the second.
+  void build(std::span<std::uint32_t> members, std::uint32_t first, std::size_t number,
+             const std::vector<Point3>& middles) {
+    constexpr std::size_t large = 4096; // enough to share out
+    Node& node = nodes_[number];
     if (members.size() <= max_in_leaf) {
       for (const std::uint32_t t : members)
-        nodes_[number].box.add(boxes_[t]);
-      nodes_[number].first = first;
-      nodes_[number].count = static_cast<std::uint32_t>(members.size());
-      return number;
+        node.box.add(boxes_[t]);
+      node.first = first;
+      node.count = static_cast<std::uint32_t>(members.size());
+      return;
     }
     const std::uint32_t half = split_at_median(members, middles, 3);
-    const std::uint32_t a = build(members.first(half), first, middles);
-    const std::uint32_t b = build(members.subspan(half), first + half, middles);
-    nodes_[number].first = a;
-    nodes_[number].second = b;
-    nodes_[number].box = nodes_[a].box;
-    nodes_[number].box.add(nodes_[b].box);
-    return number;
+    node.first = static_cast<std::uint32_t>(number + 1);
+    node.second = static_cast<std::uint32_t>(number + 1 + nodes_of_halves(half, max_in_leaf));
+    const auto build_first = [&] { build(members.first(half), first, node.first, middles); };
+    const auto build_second = [&] {
+      build(members.subspan(half), first + half, node.second, middles);
+    };
+    if (members.size() < large) {
+      build_first();
+      build_second();
+    } else {
+      tbb::parallel_invoke(build_first, build_second);
+    }
+    node.box = nodes_[node.first].box;
+    node.box.add(nodes_[node.second].box);
   }
 
   std::vector<Box> boxes_;
@@ -196,9 +207,14 @@ void measure_runs(std::vector<ContactSegment>& segments, double grain) {
 
 /// By PatchId, bit k: edge k is shared with another patch that faces the same way in its plane.
 std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
+  struct Edge {
+    std::array<std::uint32_t, 2> ends; ///< places, the lower first
+    std::uint32_t patch;
+    std::uint8_t bit;
+  };
   VertexWelder welder(16.0 * surfaces.tolerance + 1e-300);
   std::vector<Point3> places;
-  std::map<std::array<std::uint32_t, 2>, std::vector<std::pair<std::uint32_t, std::size_t>>> edges;
+  std::vector<Edge> edges;
   std::vector<std::uint8_t> inner(surfaces.patches.size(), 0);
   std::vector<std::uint32_t> in_plane(2 * surfaces.planes.size(), 0);
   const auto face_of = [&](const Patch& patch) {
@@ -210,22 +226,24 @@ std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
   for (const Patch& patch : surfaces.patches)
     ++in_plane[face_of(patch)];
   for (std::uint32_t p = 0; p < surfaces.patches.size(); ++p) {
-    const Patch& patch = surfaces.patches[p];
-    const std::uint32_t face = face_of(patch);
+    const std::uint32_t face = face_of(surfaces.patches[p]);
     if (in_plane[face] < 2)
       continue;
-    const auto polygon = polygon_of(patch);
-    const auto place = [&](std::size_t k) {
-      return index(welder.vertex_at(face, polygon[k % polygon.size()], places));
-    };
+    const auto polygon = polygon_of(surfaces.patches[p]);
+    std::array<std::uint32_t, 4> place{};
     for (std::size_t k = 0; k < polygon.size(); ++k)
-      edges[{std::min(place(k), place(k + 1)), std::max(place(k), place(k + 1))}].emplace_back(p,
-                                                                                              k);
+      place[k] = index(welder.vertex_at(face, polygon[k], places));
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const auto [low, high] = std::minmax(place[k], place[(k + 1) % polygon.size()]);
+      edges.push_back({{low, high}, p, static_cast<std::uint8_t>(1U << k)});
+    }
   }
-  for (const auto& [ends, at] : edges)
-    if (at.size() > 1)
-      for (const auto& [p, k] : at)
-        inner[p] |= static_cast<std::uint8_t>(1U << k);
+  tbb::parallel_sort(edges.begin(), edges.end(),
+                     [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+  for (std::size_t k = 1; k < edges.size(); ++k)
+    if (edges[k].ends == edges[k - 1].ends)
+      for (const Edge& edge : {edges[k - 1], edges[k]})
+        inner[edge.patch] |= edge.bit;
   return inner;
 }
 

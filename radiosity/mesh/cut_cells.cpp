@@ -4,6 +4,8 @@
 #include "radiosity/mesh/mesh_cells.h"
 #include "scenes/surfaces/disjoint_sets.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -76,42 +78,8 @@ OpenEdge open_edge(const PlaneCell& cell, std::size_t k) {
   return edge;
 }
 
-/// The stretches of edge k along which the pieces of a region lie.
-std::vector<Stretch> stretches_of(const PlaneCell& cell, const CutPolygon& cut,
-                                  std::uint32_t region, std::size_t k) {
-  const Vec2 a = cell.corners[k], b = cell.corners[cell.next(k)];
-  const double length = glm::distance(a, b);
-  const Vec2 along = (b - a) / length, aside(-along.y, along.x);
-  std::vector<Stretch> found;
-  for (std::size_t p = 0; p < cut.pieces.size(); ++p) {
-    if (cut.region[p] != region)
-      continue;
-    const auto& points = cut.pieces[p];
-    for (std::size_t c = 0; c < points.size(); ++c) {
-      const Vec2 x = points[c] - a, y = points[(c + 1) % points.size()] - a;
-      if (std::abs(glm::dot(aside, x)) > cell.grain || std::abs(glm::dot(aside, y)) > cell.grain)
-        continue;
-      const double s = glm::dot(along, x) / length, t = glm::dot(along, y) / length;
-      if (std::abs(s - t) * length > 2.0 * cell.grain)
-        found.push_back({std::min(s, t), std::max(s, t)});
-    }
-  }
-  return found;
-}
-
 bool overlap(const Stretch& a, const Stretch& b, double by) {
   return std::min(a.to, b.to) - std::max(a.from, b.from) > by;
-}
-
-bool has_corner(const PlaneCell& cell, const CutPolygon& cut, std::uint32_t region,
-                std::size_t corner) {
-  for (std::size_t p = 0; p < cut.pieces.size(); ++p)
-    if (cut.region[p] == region &&
-        std::ranges::any_of(cut.pieces[p], [&](Vec2 x) {
-          return glm::distance(x, cell.corners[corner]) <= cell.grain;
-        }))
-      return true;
-  return false;
 }
 
 /// Names for vertices: of those that are the same all are joined.
@@ -190,13 +158,14 @@ void name_corners(const PlaneCell& cell, const RegionOfCut& of, std::uint64_t su
   for (std::size_t c = 0; c < count; ++c) {
     const Point3 corner = place.at(cell.corners[c]);
     const std::size_t before = (c + count - 1) % count;
-    const bool own = has_corner(cell, cut, region, c);
+    const bool own = has_corner(cut, region, cell.corners[c], cell.grain);
     const bool at_contact = edges[c].met_at_start || edges[before].met_at_end;
     std::vector<std::uint32_t> names;
     if (own && !at_contact)
       names.push_back(groups.shared(surface_side, corner));
     for (const std::size_t k : {c, before}) {
-      const std::vector<Stretch> here = stretches_of(cell, cut, region, k);
+      const std::vector<Stretch> here =
+          stretches_along(cell.corners[k], cell.corners[cell.next(k)], cut, region, cell.grain);
       if (here.empty())
         continue;
       if (!edges[k].met) {
@@ -272,19 +241,18 @@ CellLine cell_line(const PlaneCell& cell, const CutLine& line) {
   return {{at(0), at(1) - at(0), at(3) - at(0), at(2) - at(1) - at(3) + at(0)}, {}};
 }
 
-/// Appends the lines of a leaf that is cut. Returns the first.
-std::uint32_t add_lines(const PlaneCell& cell, const CutPolygon& cut,
-                        std::vector<CellLine>& lines) {
-  const auto first = static_cast<std::uint32_t>(lines.size());
+/// The lines of a leaf that is cut, counted from 0.
+std::vector<CellLine> lines_of(const PlaneCell& cell, const CutPolygon& cut) {
+  std::vector<CellLine> lines;
   for (const CutLine& line : cut.lines) {
     CellLine here = cell_line(cell, line);
     for (std::size_t k = 0; k < 2; ++k)
       here.next[k] = (line.next[k] & CutLine::piece) != 0
                          ? CellLine::region | cut.region[line.next[k] & ~CutLine::piece]
-                         : first + line.next[k];
+                         : line.next[k];
     lines.push_back(here);
   }
-  return first;
+  return lines;
 }
 
 /// The leaves of a mesh with the roots they are in.
@@ -300,6 +268,97 @@ void for_each_leaf(const ElementMesh& mesh, std::uint32_t number, std::uint32_t 
     for_each_leaf(mesh, index(cell.first_child) + k, root, use);
 }
 
+struct CutLeaf {
+  std::uint32_t number = 0, root = 0; ///< cells
+  CutCell cell;
+  std::vector<CellLine> lines; ///< counted from 0
+};
+
+/// Appends the leaf, unless nothing touches it.
+void cut_leaf(const ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
+              std::uint32_t root, VertexGroups& groups, std::vector<CutLeaf>& leaves) {
+  const MeshCell& cell = mesh.cells[number];
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const PlanePlace place(surfaces.patches[index(side.patch)], side);
+  const PlaneCell flat = plane_cell(mesh, surfaces, cell, root, place);
+  if (flat.segments.empty())
+    return;
+  std::vector<Vec2> outline = flat.corners;
+  if (area_of(outline) < 0.0)
+    std::ranges::reverse(outline);
+  const CutPolygon cut = cut_polygon(outline, flat.segments, flat.grain);
+  std::vector<OpenEdge> edges;
+  for (std::size_t k = 0; k < flat.corners.size(); ++k)
+    edges.push_back(open_edge(flat, k));
+  CutLeaf leaf{number, root, {}, {}};
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    if (edges[k].walled)
+      leaf.cell.walled_edges |= static_cast<std::uint8_t>(1U << k);
+  if (cut.regions > 1)
+    leaf.lines = lines_of(flat, cut);
+  for (std::uint32_t region = 0; region < cut.regions; ++region) {
+    CutRegion& added = leaf.cell.regions.emplace_back();
+    const RegionOfCut of{cut, region, place};
+    measure(mesh, surfaces, cell, of, added.element);
+    name_corners(flat, of, surface_side(mesh, surfaces, cell), edges, groups, added);
+  }
+  leaves.push_back(std::move(leaf));
+}
+
+/// Roots on which something stands, those of one side of a surface in a row:
+/// they alone share vertices.
+struct RootsBySide {
+  std::vector<std::uint32_t> roots;
+  std::vector<std::size_t> begin; ///< by side of a surface, and the end
+};
+RootsBySide roots_by_side(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
+  for (std::uint32_t root = 0; root + 1 < mesh.contacts->begin.size(); ++root)
+    if (mesh.contacts->begin[root] != mesh.contacts->begin[root + 1])
+      sorted.emplace_back(surface_side(mesh, surfaces, mesh.cells[root]), root);
+  std::ranges::sort(sorted);
+  RootsBySide by_side;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    if (k == 0 || sorted[k].first != sorted[k - 1].first)
+      by_side.begin.push_back(k);
+    by_side.roots.push_back(sorted[k].second);
+  }
+  by_side.begin.push_back(sorted.size());
+  return by_side;
+}
+
+/// Those of one side of a surface, whose corners get their groups.
+std::vector<CutLeaf> cut_leaves_of(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                                   std::span<const std::uint32_t> roots) {
+  std::vector<CutLeaf> leaves;
+  VertexGroups groups(vertex_grain(mesh, surfaces));
+  for (const std::uint32_t root : roots)
+    for_each_leaf(mesh, root, root, [&](std::uint32_t number, std::uint32_t of) {
+      cut_leaf(mesh, surfaces, number, of, groups, leaves);
+    });
+  const std::vector<std::uint32_t> group = groups.groups();
+  for (CutLeaf& leaf : leaves)
+    for (CutRegion& region : leaf.cell.regions)
+      for (RegionCorner& corner : region.corners)
+        if (corner.group != RegionCorner::shared)
+          corner.group = group[corner.group];
+  return leaves;
+}
+
+/// Appends a leaf; its lines are counted among those of all.
+void append(CutLeaf& leaf, CutCells& cuts) {
+  const auto first = static_cast<std::uint32_t>(cuts.lines.size());
+  if (leaf.cell.regions.size() > 1)
+    leaf.cell.first_line = first;
+  for (CellLine& line : leaf.lines) {
+    for (std::uint32_t& next : line.next)
+      next += (next & CellLine::region) != 0 ? 0 : first;
+    cuts.lines.push_back(line);
+  }
+  cuts.of_cell[leaf.number] = static_cast<std::uint32_t>(cuts.cells.size());
+  cuts.cells.push_back(std::move(leaf.cell));
+}
+
 } // namespace
 
 CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
@@ -307,46 +366,19 @@ CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   if (!mesh.contacts || mesh.contacts->segments.empty())
     return cuts;
   cuts.of_cell.assign(mesh.cells.size(), uncut);
-  VertexGroups groups(vertex_grain(mesh, surfaces));
-  const auto cut_leaf = [&](std::uint32_t number, std::uint32_t root) {
-    const MeshCell& cell = mesh.cells[number];
-    const MeshSide& side = mesh.sides[index(cell.side)];
-    const PlanePlace place(surfaces.patches[index(side.patch)], side);
-    const PlaneCell flat = plane_cell(mesh, surfaces, cell, root, place);
-    if (flat.segments.empty())
-      return;
-    std::vector<Vec2> outline = flat.corners;
-    if (area_of(outline) < 0.0)
-      std::ranges::reverse(outline);
-    const CutPolygon cut = cut_polygon(outline, flat.segments, flat.grain);
-    std::vector<OpenEdge> edges;
-    for (std::size_t k = 0; k < flat.corners.size(); ++k)
-      edges.push_back(open_edge(flat, k));
-    CutCell result;
-    for (std::size_t k = 0; k < edges.size(); ++k)
-      if (edges[k].walled)
-        result.walled_edges |= static_cast<std::uint8_t>(1U << k);
-    if (cut.regions > 1)
-      result.first_line = add_lines(flat, cut, cuts.lines);
-    for (std::uint32_t region = 0; region < cut.regions; ++region) {
-      CutRegion& added = result.regions.emplace_back();
-      const RegionOfCut of{cut, region, place};
-      measure(mesh, surfaces, cell, of, added.element);
-      name_corners(flat, of, surface_side(mesh, surfaces, cell), edges, groups, added);
-    }
-    cuts.of_cell[number] = static_cast<std::uint32_t>(cuts.cells.size());
-    cuts.cells.push_back(std::move(result));
-  };
-  for (std::uint32_t root = 0; root + 1 < mesh.contacts->begin.size(); ++root)
-    if (mesh.contacts->begin[root] != mesh.contacts->begin[root + 1])
-      for_each_leaf(mesh, root, root, cut_leaf);
-
-  const std::vector<std::uint32_t> group = groups.groups();
-  for (CutCell& cell : cuts.cells)
-    for (CutRegion& region : cell.regions)
-      for (RegionCorner& corner : region.corners)
-        if (corner.group != RegionCorner::shared)
-          corner.group = group[corner.group];
+  const auto [roots, begin] = roots_by_side(mesh, surfaces);
+  std::vector<std::vector<CutLeaf>> of_side(begin.size() - 1);
+  tbb::parallel_for(std::size_t{0}, of_side.size(), [&](std::size_t s) {
+    of_side[s] = cut_leaves_of(mesh, surfaces,
+                               std::span(roots).subspan(begin[s], begin[s + 1] - begin[s]));
+  });
+  std::vector<CutLeaf*> in_order;
+  for (auto& leaves : of_side)
+    for (CutLeaf& leaf : leaves)
+      in_order.push_back(&leaf);
+  std::ranges::stable_sort(in_order, {}, &CutLeaf::root);
+  for (CutLeaf* leaf : in_order)
+    append(*leaf, cuts);
   return cuts;
 }
 

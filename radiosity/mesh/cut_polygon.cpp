@@ -263,4 +263,34 @@ CutPolygon cut_polygon(std::span<const Vec2> polygon, std::span<const Segment2> 
   return std::move(cutter.cut);
 }
 
+std::vector<Stretch> stretches_along(Vec2 a, Vec2 b, const CutPolygon& cut, std::uint32_t region,
+                                     double grain) {
+  const double length = glm::distance(a, b);
+  const Vec2 along = (b - a) / length, aside(-along.y, along.x);
+  std::vector<Stretch> found;
+  for (std::size_t p = 0; p < cut.pieces.size(); ++p) {
+    if (cut.region[p] != region)
+      continue;
+    const auto& points = cut.pieces[p];
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      const Vec2 x = points[c] - a, y = points[(c + 1) % points.size()] - a;
+      if (std::abs(glm::dot(aside, x)) > grain || std::abs(glm::dot(aside, y)) > grain)
+        continue;
+      const double s = glm::dot(along, x) / length, t = glm::dot(along, y) / length;
+      if (std::abs(s - t) * length > 2.0 * grain)
+        found.push_back({std::min(s, t), std::max(s, t)});
+    }
+  }
+  return found;
+}
+
+bool has_corner(const CutPolygon& cut, std::uint32_t region, Vec2 point, double grain) {
+  for (std::size_t p = 0; p < cut.pieces.size(); ++p)
+    if (cut.region[p] == region && std::ranges::any_of(cut.pieces[p], [&](Vec2 x) {
+          return glm::distance(x, point) <= grain;
+        }))
+      return true;
+  return false;
+}
+
 } // namespace meninas

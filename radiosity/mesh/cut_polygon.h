@@ -52,6 +52,13 @@ struct Stretch {
 };
 std::vector<Stretch> met_along(Vec2 a, Vec2 b, std::span<const Segment2> segments, double grain);
 
+/// The stretches of the way from a to b along which the pieces of a region lie, within `grain`.
+std::vector<Stretch> stretches_along(Vec2 a, Vec2 b, const CutPolygon& cut, std::uint32_t region,
+                                     double grain);
+
+/// Whether a piece of the region has a corner within `grain` of the point.
+bool has_corner(const CutPolygon& cut, std::uint32_t region, Vec2 point, double grain);
+
 double area_of(std::span<const Vec2> polygon);
 
 } // namespace meninas

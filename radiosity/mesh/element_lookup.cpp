@@ -1,5 +1,7 @@
 #include "radiosity/mesh/element_lookup.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -107,16 +109,15 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
                                 const MirrorSet& mirrors, const ElementMesh& mesh,
                                 Point3 frame_centre, double frame_scale) {
   LandingTable table;
-  table.faces.reserve(2 * scene.triangles.size());
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    for (int facing = 0; facing < 2; ++facing) {
-      FaceRecord face = make_face(scene, surfaces, mirrors, mesh, t, facing);
-      // The plane through one of its own vertices, in the frame: n . (p - centre) scale.
-      const Point3 p = position(scene, scene.triangles[t].vertices[0]);
-      face.frame_offset = glm::dot(face.normal, (p - frame_centre) * frame_scale);
-      table.faces.push_back(face);
-    }
-  }
+  table.faces.resize(2 * scene.triangles.size());
+  tbb::parallel_for(std::size_t{0}, table.faces.size(), [&](std::size_t k) {
+    const auto triangle = static_cast<std::uint32_t>(k / 2);
+    FaceRecord& face = table.faces[k];
+    face = make_face(scene, surfaces, mirrors, mesh, triangle, static_cast<int>(k % 2));
+    // The plane through one of its own vertices, in the frame: n . (p - centre) scale.
+    const Point3 p = position(scene, scene.triangles[triangle].vertices[0]);
+    face.frame_offset = glm::dot(face.normal, (p - frame_centre) * frame_scale);
+  });
   table.elements = make_element_table(mesh);
   return table;
 }

@@ -48,20 +48,33 @@ ElementCorners corners_before(const NewElements& to, const MeshCell& was) {
   return corners;
 }
 
+/// Whether a leaf is all of its side and its surface.
+bool is_alone(const NewElements& to, const MeshCell& cell) {
+  const MeshSide& side = to.mesh.sides[index(cell.side)];
+  const SurfaceId surface = to.surfaces.patches[index(side.patch)].surface;
+  return cell.level == 0 && side.root_count == 1 &&
+         to.surfaces.surfaces[index(surface)].patches.size() == 1;
+}
+
 /// The corners of a leaf by their places, and its area.
 ElementCorners new_corners(const NewElements& to, MeshCell& cell) {
   const bool triangle = to.mesh.sides[index(cell.side)].triangle;
   const auto coordinates = corner_coordinates(triangle);
-  ElementCorners corners;
   std::array<Point3, 4> points;
-  for (std::size_t c = 0; c < 4; ++c) {
+  for (std::size_t c = 0; c < 4; ++c)
     points[c] = point_in(to.mesh, to.surfaces, cell, coordinates[c]);
-    corners[c] = c == 3 && triangle
-                     ? corners[2]
-                     : to.vertices.vertex_at(surface_side(to.mesh, to.surfaces, cell), points[c],
-                                             to.mesh.vertices);
+  const std::span<const Point3> polygon = std::span(points).first(triangle ? 3 : 4);
+  cell.area = area_of(polygon);
+  ElementCorners corners;
+  if (is_alone(to, cell)) {
+    corners = to.vertices.vertices_apart(polygon, to.mesh.vertices);
+  } else {
+    const std::uint64_t side = surface_side(to.mesh, to.surfaces, cell);
+    for (std::size_t c = 0; c < polygon.size(); ++c)
+      corners[c] = to.vertices.vertex_at(side, polygon[c], to.mesh.vertices);
   }
-  cell.area = area_of(std::span(points).first(triangle ? 3 : 4));
+  if (triangle)
+    corners[3] = corners[2];
   return corners;
 }
 
@@ -222,8 +235,7 @@ static void set_transmittance(ElementMesh& mesh) {
 VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshBefore* before) {
   const std::size_t vertices_before = before ? before->mesh.vertices.size() : 0;
-  VertexNumbers vertices(vertex_grain(mesh, surfaces), vertices_before,
-                         before ? 0 : mesh.cells.size());
+  VertexNumbers vertices(vertex_grain(mesh, surfaces), vertices_before);
   CutCells cuts = cut_leaves(mesh, surfaces);
   if (before)
     place_vertices(mesh, surfaces, *before, cuts, vertices);

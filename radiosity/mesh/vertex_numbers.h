@@ -7,14 +7,15 @@
 
 #include "radiosity/mesh/vertex_welder.h"
 
+#include <span>
+
 namespace meninas {
 
 class VertexNumbers {
 public:
-  /// Points are the same within about `grain`, metres; `before`: so many vertices there were,
-  /// `expected`: about as many places there will be.
-  VertexNumbers(double grain, std::size_t before, std::size_t expected)
-      : welder_(grain, expected), numbers_(before, none<ElementVertexId>) {}
+  /// Points are the same within about `grain`, metres; `before`: so many vertices there were.
+  VertexNumbers(double grain, std::size_t before)
+      : welder_(grain), numbers_(before, none<ElementVertexId>) {}
 
   /// Vertex `before` is where new elements may have a corner.
   void place(std::uint64_t surface_side, const Point3& x, ElementVertexId before) {
@@ -35,6 +36,24 @@ public:
     if (slot == numbers_.size())
       numbers_.push_back(none<ElementVertexId>);
     return numbered(slot, x, vertices);
+  }
+
+  /// Vertices at the corners of an element that shares its surface with no other: those that round to
+  /// one place are one. They have no place, as nobody else asks for them.
+  ElementCorners vertices_apart(std::span<const Point3> points, std::vector<Point3>& vertices) {
+    ElementCorners corners{};
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      std::size_t same = 0;
+      while (same < c && !welder_.is_one_place(points[same], points[c]))
+        ++same;
+      if (same < c) {
+        corners[c] = corners[same];
+        continue;
+      }
+      numbers_.push_back(none<ElementVertexId>);
+      corners[c] = numbered(static_cast<std::uint32_t>(numbers_.size() - 1), points[c], vertices);
+    }
+    return corners;
   }
 
   /// The vertex there, of those that have a place; none if there is none.

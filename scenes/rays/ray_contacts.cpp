@@ -82,9 +82,14 @@ double distance_to(const std::array<Point3, 3>& corners, const Point3& x) {
 }
 
 bool is_within(const std::array<Point3, 3>& corners, const Point3& x, double reach) {
-  // |n . (x - a)| / |n|, the distance to the plane, is no greater than that to the triangle;
+  // The distance to the box is no greater than that to the triangle, nor is that to the plane,
+  // |n . (x - a)| / |n|;
   // what rounding may decide is left to the latter.
   constexpr double rounding = 1e-14; // of products of lengths up to 2, generously
+  const double beside = reach + rounding;
+  if (glm::any(glm::lessThan(x + beside, glm::min(corners[0], glm::min(corners[1], corners[2])))) ||
+      glm::any(glm::lessThan(glm::max(corners[0], glm::max(corners[1], corners[2])), x - beside)))
+    return false;
   const auto n = area_vector(corners);
   if (std::abs(glm::dot(n, x - corners[0])) > 2.0 * reach * glm::length(n) + rounding)
     return false;

@@ -47,8 +47,17 @@ public:
 
   /// Puts the faces of materials that `moves` before those of materials that `stays`.
   void separate(Test moves, Test stays, std::set<NodeId>& moved) {
-    const std::vector<Box> movers = boxes_of(moves), fixed = boxes_of(stays);
-    if (movers.empty() || fixed.empty())
+    constexpr double far = std::numeric_limits<double>::infinity();
+    const std::vector<Box> movers = boxes_of(moves, {Point3(-far), Point3(far)});
+    if (movers.empty())
+      return;
+    Bounds around;
+    for (const Box& box : movers) {
+      around.low = glm::min(around.low, box.bounds.low - touch_);
+      around.high = glm::max(around.high, box.bounds.high + touch_);
+    }
+    const std::vector<Box> fixed = boxes_of(stays, around);
+    if (fixed.empty())
       return;
     for (const Box& box : movers)
       for (const VertexId v : scene_.triangles[index(box.triangle)].vertices)
@@ -78,17 +87,19 @@ private:
   };
   using Bodies = std::map<BodyName, Body>;
 
-  std::vector<Box> boxes_of(Test of_kind) const {
+  /// Those of a kind that are near the bounds, from the lowest along x on.
+  std::vector<Box> boxes_of(Test of_kind, const Bounds& around) const {
     std::vector<Box> boxes;
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
       if (!of_kind(material_of(scene_, TriangleId{t})))
         continue;
-      Box& box = boxes.emplace_back();
-      box.triangle = TriangleId{t};
+      Box box{{}, TriangleId{t}};
       for (const Point3& corner : corners(scene_, TriangleId{t})) {
         box.bounds.low = glm::min(box.bounds.low, corner);
         box.bounds.high = glm::max(box.bounds.high, corner);
       }
+      if (are_near(box.bounds, around))
+        boxes.push_back(box);
     }
     std::ranges::sort(boxes, [](const Box& a, const Box& b) {
       return std::pair(a.bounds.low.x, a.triangle) < std::pair(b.bounds.low.x, b.triangle);

@@ -2,6 +2,8 @@
 
 #include "scenes/surfaces/point_tree.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <tuple>
 
@@ -41,7 +43,7 @@ std::vector<FaceKey> face_keys(const Scene& scene, const Topology& topology) {
       keys.push_back(key);
     }
   }
-  std::ranges::sort(keys, [](const FaceKey& a, const FaceKey& b) {
+  tbb::parallel_sort(keys.begin(), keys.end(), [](const FaceKey& a, const FaceKey& b) {
     return std::tie(a.corners, a.triangle) < std::tie(b.corners, b.triangle);
   });
   return keys;
@@ -140,10 +142,19 @@ CountByNode divided_edges(const Scene& scene, const Topology& topology, double t
 }
 
 CountByNode crowded_corners(const Scene& scene, const Topology& topology) {
-  std::vector<std::pair<VertexId, NodeId>> uses;
+  std::vector<std::uint32_t> faces(topology.welded.size(), 0);
+  const auto corner = [&](VertexId vertex) { return topology.welded[index(vertex)]; };
   for (const Triangle& triangle : scene.triangles) {
     for (const VertexId vertex : triangle.vertices) {
-      uses.emplace_back(topology.welded[index(vertex)], triangle.node);
+      ++faces[index(corner(vertex))];
+    }
+  }
+  std::vector<std::pair<VertexId, NodeId>> uses; // of corners that are crowded by all nodes together
+  for (const Triangle& triangle : scene.triangles) {
+    for (const VertexId vertex : triangle.vertices) {
+      if (faces[index(corner(vertex))] > crowd) {
+        uses.emplace_back(corner(vertex), triangle.node);
+      }
     }
   }
   std::ranges::sort(uses);

@@ -93,6 +93,13 @@ bool overlap_along(const Direction& normal, const std::array<Point3, 3>& a,
   return reaches_into(one, other, depth) && reaches_into(other, one, depth);
 }
 
+/// Triangles of one material do not count as overlapping.
+static bool have_one_material(const Scene& scene, std::span<const TriangleId> triangles) {
+  return std::ranges::all_of(triangles, [&](TriangleId t) {
+    return scene.triangles[index(t)].material == scene.triangles[index(triangles[0])].material;
+  });
+}
+
 CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces) {
   std::vector<std::vector<TriangleId>> in_plane(surfaces.planes.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
@@ -109,6 +116,9 @@ CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces)
   std::size_t tried = 0;
   std::set<std::tuple<NodeId, NodeId, TriangleId>> found;
   for (std::size_t plane = 0; plane < in_plane.size(); ++plane) {
+    if (have_one_material(scene, in_plane[plane])) {
+      continue;
+    }
     const auto faces = faces_of_plane(scene, surfaces.planes[plane], in_plane[plane]);
     for (std::size_t k = 0; k < faces.size(); ++k) {
       for (std::size_t other = k + 1;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace meninas {
@@ -11,11 +13,38 @@ namespace {
 
 constexpr std::size_t max_divided_edges = 4096;
 
+/// Pairs of numbers, by the first of them.
+struct Lists {
+  std::vector<std::uint32_t> begin; ///< by first, and the end
+  std::vector<std::uint32_t> second;
+
+  std::span<const std::uint32_t> of(std::uint32_t first) const {
+    return std::span(second).subspan(begin[first], begin[first + 1] - begin[first]);
+  }
+};
+
 /// Which faces meet at which edge. A long edge that others lie on is replaced by its pieces.
 struct Incidence {
-  std::vector<std::vector<std::uint32_t>> edges_of_face;
-  std::vector<std::vector<std::uint32_t>> faces_of_edge;
+  Lists edges_of_face;
+  Lists faces_of_edge;
 };
+
+/// The pairs the other way round.
+Lists turned_round(const Lists& lists, std::uint32_t count) {
+  Lists turned{std::vector<std::uint32_t>(count + 1, 0), {}};
+  for (const std::uint32_t to : lists.second) {
+    ++turned.begin[to + 1];
+  }
+  std::partial_sum(turned.begin.begin(), turned.begin.end(), turned.begin.begin());
+  turned.second.resize(lists.second.size());
+  std::vector<std::uint32_t> next = turned.begin;
+  for (std::uint32_t from = 0; from + 1 < lists.begin.size(); ++from) {
+    for (const std::uint32_t to : lists.of(from)) {
+      turned.second[next[to]++] = from;
+    }
+  }
+  return turned;
+}
 
 struct LooseEdge {
   std::uint32_t edge;
@@ -93,36 +122,34 @@ Incidence find_incidence(const Scene& scene, double tolerance) {
     pieces = divide_loose_edges(scene, loose, edge_count, tolerance);
   }
 
-  Incidence incidence;
-  incidence.edges_of_face.resize(scene.triangles.size());
-  incidence.faces_of_edge.resize(edge_count);
-  for (std::uint32_t face = 0; face < scene.triangles.size(); ++face) {
-    auto& edges = incidence.edges_of_face[face];
-    for (const std::uint32_t edge : topology.edge_of[face]) {
+  Lists edges{{0}, {}};
+  edges.begin.reserve(scene.triangles.size() + 1);
+  edges.second.reserve(3 * scene.triangles.size());
+  std::uint32_t count = edge_count;
+  for (const auto& of_face : topology.edge_of) {
+    for (const std::uint32_t edge : of_face) {
       const auto divided = pieces.find(edge);
       if (edge != no_edge && divided == pieces.end()) {
-        edges.push_back(edge);
+        edges.second.push_back(edge);
       } else if (edge != no_edge) {
-        edges.insert(edges.end(), divided->second.begin(), divided->second.end());
+        edges.second.insert(edges.second.end(), divided->second.begin(), divided->second.end());
+        count = std::max(count, std::ranges::max(divided->second) + 1);
       }
     }
-    for (const std::uint32_t edge : edges) {
-      if (edge >= incidence.faces_of_edge.size()) {
-        incidence.faces_of_edge.resize(edge + 1);
-      }
-      incidence.faces_of_edge[edge].push_back(face);
-    }
+    edges.begin.push_back(static_cast<std::uint32_t>(edges.second.size()));
   }
-  return incidence;
+  Lists faces = turned_round(edges, count);
+  return {std::move(edges), std::move(faces)};
 }
 
-/// Peels faces with bare edges until there is none; true for the faces that stay.
-std::vector<bool> shell_of(const Incidence& incidence) {
-  std::vector<bool> stays(incidence.edges_of_face.size(), true);
-  std::vector<std::size_t> sharers;
+/// Peels faces with bare edges until there is none; 1 for the faces that stay.
+std::vector<std::uint8_t> shell_of(const Incidence& incidence) {
+  const auto& [edges_of_face, faces_of_edge] = incidence;
+  std::vector<std::uint8_t> stays(edges_of_face.begin.size() - 1, 1);
+  std::vector<std::uint32_t> sharers;
   std::vector<std::uint32_t> bare;
-  for (std::uint32_t edge = 0; edge < incidence.faces_of_edge.size(); ++edge) {
-    sharers.push_back(incidence.faces_of_edge[edge].size());
+  for (std::uint32_t edge = 0; edge + 1 < faces_of_edge.begin.size(); ++edge) {
+    sharers.push_back(static_cast<std::uint32_t>(faces_of_edge.of(edge).size()));
     if (sharers.back() == 1) {
       bare.push_back(edge);
     }
@@ -130,12 +157,12 @@ std::vector<bool> shell_of(const Incidence& incidence) {
   while (!bare.empty()) {
     const std::uint32_t edge = bare.back();
     bare.pop_back();
-    for (const std::uint32_t face : incidence.faces_of_edge[edge]) {
-      if (!stays[face]) {
+    for (const std::uint32_t face : faces_of_edge.of(edge)) {
+      if (stays[face] == 0) {
         continue;
       }
-      stays[face] = false;
-      for (const std::uint32_t other : incidence.edges_of_face[face]) {
+      stays[face] = 0;
+      for (const std::uint32_t other : edges_of_face.of(face)) {
         if (--sharers[other] == 1) {
           bare.push_back(other);
         }
@@ -151,10 +178,10 @@ bool is_closed(const Scene& scene, double tolerance) {
   if (scene.triangles.empty()) {
     return false;
   }
-  const std::vector<bool> stays = shell_of(find_incidence(scene, tolerance));
+  const std::vector<std::uint8_t> stays = shell_of(find_incidence(scene, tolerance));
   Bounds shell;
   for (std::uint32_t face = 0; face < stays.size(); ++face) {
-    if (!stays[face]) {
+    if (stays[face] == 0) {
       continue;
     }
     for (const Point3& corner : corners(scene, TriangleId{face})) {

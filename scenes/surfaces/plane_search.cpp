@@ -1,5 +1,7 @@
 #include "scenes/surfaces/plane_search.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,8 +10,8 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t smallest_tree = 32;
 constexpr std::uint32_t leaf_size = 4;
+constexpr std::uint32_t large = 4096; ///< enough planes to share out their work
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
 /// Fixed, oblique to the planes people build: tells the two orientations of a plane apart.
@@ -20,6 +22,9 @@ Plane flipped(const Plane& plane) { return {-plane.normal, -plane.offset}; }
 Plane oriented(const Plane& plane) {
   return glm::dot(plane.normal, orientation) < 0.0 ? flipped(plane) : plane;
 }
+
+std::uint32_t leaves_over(std::uint32_t planes) { return (planes + leaf_size - 1) / leaf_size; }
+std::uint32_t nodes_over(std::uint32_t planes) { return 2 * leaves_over(planes) - 1; }
 
 /// Everything else in the search is a bound on this.
 bool may_hold_all(const KnownPlane& known, const PlaneQuery& query) {
@@ -46,20 +51,22 @@ void PlaneSearch::add(const KnownPlane& plane) {
   recent_.push_back(size());
   planes_.push_back(plane);
   keys_.push_back(key_of(oriented(plane.plane)));
-  if (recent_.size() < smallest_tree)
+}
+
+void PlaneSearch::settle() {
+  if (recent_.empty())
     return;
-  // As a carry runs through the digits of a binary number.
   Tree tree;
   tree.planes.swap(recent_);
-  std::size_t k = 0;
-  for (; k < trees_.size() && !trees_[k].planes.empty(); ++k) {
-    tree.planes.insert(tree.planes.end(), trees_[k].planes.begin(), trees_[k].planes.end());
-    trees_[k] = {};
+  while (!trees_.empty() && trees_.back().planes.size() < 2 * tree.planes.size()) {
+    const auto& last = trees_.back().planes;
+    tree.planes.insert(tree.planes.end(), last.begin(), last.end());
+    trees_.pop_back();
   }
-  if (k == trees_.size())
-    trees_.emplace_back();
-  build(tree, 0, static_cast<std::uint32_t>(tree.planes.size()));
-  trees_[k] = std::move(tree);
+  const auto count = static_cast<std::uint32_t>(tree.planes.size());
+  tree.nodes.resize(nodes_over(count));
+  build(tree, 0, 0, count);
+  trees_.push_back(std::move(tree));
 }
 
 PlaneSearch::Node PlaneSearch::bounds(const Tree& tree, std::uint32_t begin,
@@ -86,25 +93,31 @@ PlaneSearch::Node PlaneSearch::bounds(const Tree& tree, std::uint32_t begin,
   return node;
 }
 
-std::uint32_t PlaneSearch::build(Tree& tree, std::uint32_t begin, std::uint32_t end) const {
-  const auto id = static_cast<std::uint32_t>(tree.nodes.size());
-  tree.nodes.push_back(bounds(tree, begin, end));
+void PlaneSearch::build(Tree& tree, std::uint32_t id, std::uint32_t begin,
+                        std::uint32_t end) const {
+  Node& node = tree.nodes[id];
+  node = bounds(tree, begin, end);
   if (end - begin <= leaf_size)
-    return id;
-  const Node& node = tree.nodes[id];
+    return;
   std::size_t widest = 0;
   for (std::size_t axis = 1; axis < key_size; ++axis)
     if (node.high[axis] - node.low[axis] > node.high[widest] - node.low[widest])
       widest = axis;
-  const std::uint32_t half = begin + (end - begin) / 2;
+  // The first half has full leaves, so that the number of its nodes is known before it is built.
+  const std::uint32_t half = begin + leaves_over(end - begin) / 2 * leaf_size;
   const auto place = [&](std::uint32_t k) { return tree.planes.begin() + k; };
   std::nth_element(place(begin), place(half), place(end), [&](std::uint32_t a, std::uint32_t b) {
     return keys_[a][widest] < keys_[b][widest];
   });
-  build(tree, begin, half);
-  const std::uint32_t second = build(tree, half, end);
-  tree.nodes[id].second_child = second;
-  return id;
+  node.second_child = id + 1 + nodes_over(half - begin);
+  const auto build_first = [&] { build(tree, id + 1, begin, half); };
+  const auto build_second = [&] { build(tree, node.second_child, half, end); };
+  if (end - begin < large) {
+    build_first();
+    build_second();
+  } else {
+    tbb::parallel_invoke(build_first, build_second);
+  }
 }
 
 /// False where no plane below the node is near and holds all points.
@@ -159,9 +172,16 @@ void PlaneSearch::look_at(std::span<const std::uint32_t> planes, Search& search)
   }
 }
 
+void PlaneSearch::look_at_trees(Search& search) const {
+  for (const Tree& tree : trees_)
+    look(tree, 0, search);
+}
+
+template <typename Look>
 std::optional<std::uint32_t>
-PlaneSearch::first(const PlaneQuery& query,
-                   const std::function<bool(std::uint32_t)>& accepts) const {
+PlaneSearch::search_either_way(const PlaneQuery& query,
+                               const std::function<bool(std::uint32_t)>& accepts,
+                               const Look& look) const {
   Search search{query, accepts};
   const auto search_along = [&](const Plane& plane) {
     const Key key = key_of(plane);
@@ -169,11 +189,7 @@ PlaneSearch::first(const PlaneQuery& query,
       search.low[axis] = key[axis] - query.radius;
       search.high[axis] = key[axis] + query.radius;
     }
-    // The oldest planes are in the largest trees.
-    for (std::size_t k = trees_.size(); k-- > 0;)
-      if (!trees_[k].planes.empty())
-        look(trees_[k], 0, search);
-    look_at(recent_, search);
+    look(search);
   };
   const Plane plane = oriented(query.plane);
   search_along(plane);
@@ -181,6 +197,25 @@ PlaneSearch::first(const PlaneQuery& query,
   if (glm::dot(plane.normal, orientation) <= 2.0 * query.radius)
     search_along(flipped(plane));
   return search.found == nothing ? std::nullopt : std::optional(search.found);
+}
+
+std::optional<std::uint32_t>
+PlaneSearch::first_settled(const PlaneQuery& query,
+                           const std::function<bool(std::uint32_t)>& accepts) const {
+  return search_either_way(query, accepts, [&](Search& search) { look_at_trees(search); });
+}
+
+std::optional<std::uint32_t>
+PlaneSearch::first_recent(const PlaneQuery& query,
+                          const std::function<bool(std::uint32_t)>& accepts) const {
+  return search_either_way(query, accepts, [&](Search& search) { look_at(recent_, search); });
+}
+
+std::optional<std::uint32_t>
+PlaneSearch::first(const PlaneQuery& query,
+                   const std::function<bool(std::uint32_t)>& accepts) const {
+  const auto settled = first_settled(query, accepts);
+  return settled ? settled : first_recent(query, accepts);
 }
 
 } // namespace meninas

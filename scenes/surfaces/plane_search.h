@@ -12,9 +12,10 @@
 //
 // The planes are in binary trees over (normal, distance) whose nodes know the ranges of these, of
 // the centres and of u, so that the inequality is bounded over all that is below a node and most of
-// it is not looked at. Trees are as large as 32 times the powers of two, and two of one size become
-// one (Bentley, Saxe 1980): n additions take O(n log^2 n). A search takes O(log^2 n) where few
-// planes come near; there is no bound for planes made to defeat it.
+// it is not looked at. Each tree is at least twice as large as the next one: those that are not
+// become one (Bentley, Saxe 1980), and n additions take O(n log^2 n). A search takes O(log^2 n)
+// where few planes come near; there is no bound for planes made to defeat it. Planes that were added
+// since the last call of settle() are in no tree: they are asked in turn.
 #pragma once
 
 #include "scenes/surfaces/surfaces.h"
@@ -48,6 +49,8 @@ public:
 
   /// Planes are counted from 0.
   void add(const KnownPlane& plane);
+  /// Puts those that were added since the last time into a tree.
+  void settle();
 
   const KnownPlane& operator[](std::uint32_t plane) const { return planes_[plane]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(planes_.size()); }
@@ -56,6 +59,12 @@ public:
   /// `accepts` takes. Either orientation of a plane is the same plane.
   std::optional<std::uint32_t> first(const PlaneQuery& query,
                                      const std::function<bool(std::uint32_t)>& accepts) const;
+  /// Among those that are in trees, which were added before all others.
+  std::optional<std::uint32_t> first_settled(const PlaneQuery& query,
+                                             const std::function<bool(std::uint32_t)>& accepts) const;
+  /// Among those that are in none.
+  std::optional<std::uint32_t> first_recent(const PlaneQuery& query,
+                                            const std::function<bool(std::uint32_t)>& accepts) const;
 
 private:
   static constexpr std::size_t key_size = 4;
@@ -76,8 +85,13 @@ private:
   struct Search;
 
   Key key_of(const Plane& plane) const;
-  std::uint32_t build(Tree& tree, std::uint32_t begin, std::uint32_t end) const;
+  void build(Tree& tree, std::uint32_t id, std::uint32_t begin, std::uint32_t end) const;
   Node bounds(const Tree& tree, std::uint32_t begin, std::uint32_t end) const;
+  template <typename Look>
+  std::optional<std::uint32_t> search_either_way(const PlaneQuery& query,
+                                                 const std::function<bool(std::uint32_t)>& accepts,
+                                                 const Look& look) const;
+  void look_at_trees(Search& search) const;
   void look(const Tree& tree, std::uint32_t node, Search& search) const;
   void look_at(std::span<const std::uint32_t> planes, Search& search) const;
   bool may_hold(const Node& node, const Search& search) const;
@@ -87,7 +101,7 @@ private:
   std::vector<KnownPlane> planes_;
   std::vector<Key> keys_;
   std::vector<std::uint32_t> recent_; ///< in no tree yet
-  std::vector<Tree> trees_;           ///< [k] is empty or of 32 * 2^k planes
+  std::vector<Tree> trees_;           ///< the largest first, which has the oldest planes
 };
 
 } // namespace meninas

@@ -1,6 +1,7 @@
 #include "scenes/surfaces/precision.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meninas {
@@ -26,6 +27,33 @@ std::vector<VertexId> corners_of(const Scene& scene) {
   for (const Triangle& triangle : scene.triangles)
     all.insert(all.end(), triangle.vertices.begin(), triangle.vertices.end());
   return all;
+}
+
+/// Whether the median distance from any point is certainly more than the diagonal of all corners
+/// over `far_away`: where no slab so wide, across the longest side of their box, has half of them.
+bool is_spread_out(const Scene& scene, const std::vector<VertexId>& corners) {
+  Bounds bounds;
+  for (const VertexId v : corners) {
+    bounds.low = glm::min(bounds.low, position(scene, v));
+    bounds.high = glm::max(bounds.high, position(scene, v));
+  }
+  const Vec3 extent = bounds.high - bounds.low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  // The diagonal is at most sqrt(3) sides, and 2 sqrt(3) / far_away of a side less than two parts:
+  // a slab touches three.
+  constexpr std::size_t parts = 1024;
+  std::array<std::size_t, parts + 2> count{};
+  const double per_length = parts / extent[axis];
+  if (!std::isfinite(per_length))
+    return false;
+  for (const VertexId v : corners) {
+    const double at = (position(scene, v)[axis] - bounds.low[axis]) * per_length;
+    ++count[at < parts ? static_cast<std::size_t>(at) : parts - 1];
+  }
+  for (std::size_t k = 0; k < parts; ++k)
+    if (2 * (count[k] + count[k + 1] + count[k + 2]) >= corners.size())
+      return false;
+  return true;
 }
 
 Point3 median_of(const Scene& scene, const std::vector<VertexId>& corners) {
@@ -62,16 +90,20 @@ Detail detail_of(const Scene& scene) {
   if (scene.triangles.empty())
     return {};
   const std::vector<VertexId> corners = corners_of(scene);
+  const auto all = [&]() -> Detail {
+    const Bounds bounds = bounds_of(scene);
+    return {0.5 * bounds.low + 0.5 * bounds.high, 0.5 * glm::distance(bounds.low, bounds.high)};
+  };
+  if (is_spread_out(scene, corners))
+    return all();
   const Point3 centre = median_of(scene, corners);
   std::vector<double> distances(corners.size());
   std::ranges::transform(corners, distances.begin(),
                          [&](VertexId v) { return glm::distance(position(scene, v), centre); });
   const double farthest = std::ranges::max(distances);
   const double within = far_away * median(distances);
-  if (!(within > 0.0) || farthest <= within) {
-    const Bounds bounds = bounds_of(scene);
-    return {0.5 * bounds.low + 0.5 * bounds.high, 0.5 * glm::distance(bounds.low, bounds.high)};
-  }
+  if (!(within > 0.0) || farthest <= within)
+    return all();
   Detail detail{centre, 0.0, false};
   for (const double distance : distances)
     if (distance <= within)

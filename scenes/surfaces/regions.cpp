@@ -1,9 +1,14 @@
 #include "scenes/surfaces/regions.h"
 
+#include "scenes/surfaces/disjoint_sets.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace meninas {
@@ -39,19 +44,42 @@ private:
   double area_ = 0.0;
 };
 
+/// What growing leaves at triangles and edges.
+struct Marks {
+  std::vector<std::uint8_t> taken;  ///< by triangle: it is in a region, or to be in none
+  std::vector<std::uint32_t> asked; ///< by edge, the round in which it was asked last
+};
+
+/// Regions of triangles that are connected by edges. What is not can be grown at the same time.
 class RegionGrower {
 public:
   RegionGrower(const Scene& scene, const std::vector<TriangleShape>& shapes,
-               const Topology& topology, std::span<const double> tolerances)
+               const Topology& topology, std::span<const double> tolerances, Marks& marks)
       : scene_(scene), shapes_(shapes), topology_(topology), tolerances_(tolerances),
-        taken_(scene.triangles.size(), 0), asked_(topology.first_use.size(), 0) {
-    std::ranges::transform(tolerances, taken_.begin(), [](double t) { return t < 0.0 ? 1 : 0; });
+        taken_(marks.taken), asked_(marks.asked) {}
+
+  /// The regions around the seeds that no region before has taken. Their triangles fill `members`
+  /// from place `first` on.
+  void grow(std::span<const TriangleId> seeds, std::uint32_t first,
+            std::vector<TriangleId>& members) {
+    for (const TriangleId seed : seeds) {
+      if (is_taken(seed)) {
+        continue;
+      }
+      Region& region = regions_.emplace_back(grow(seed));
+      region.first = first;
+      std::ranges::copy(triangles_, members.begin() + first);
+      first += region.count;
+    }
   }
 
+  const std::vector<Region>& regions() const { return regions_; }
+
+private:
   bool is_taken(TriangleId triangle) const { return taken_[index(triangle)] != 0; }
 
-  /// The region around the seed; its triangles are appended to `members`.
-  Region grow(TriangleId seed, std::vector<TriangleId>& members) {
+  /// The region around the seed, which is that of triangles_.
+  Region grow(TriangleId seed) {
     region_ = {};
     triangles_.clear();
     const auto seed_corners = corners(scene_, seed);
@@ -80,13 +108,10 @@ public:
       }
     }
     std::sort(triangles_.begin(), triangles_.end());
-    region_.first = static_cast<std::uint32_t>(members.size());
     region_.count = static_cast<std::uint32_t>(triangles_.size());
-    members.insert(members.end(), triangles_.begin(), triangles_.end());
     return region_;
   }
 
-private:
   void take(TriangleId triangle) {
     const TriangleShape& shape = shapes_[index(triangle)];
     taken_[index(triangle)] = 1;
@@ -152,29 +177,60 @@ private:
   const std::vector<TriangleShape>& shapes_;
   const Topology& topology_;
   std::span<const double> tolerances_;
-  std::vector<std::uint8_t> taken_;
-  std::vector<std::uint64_t> asked_; ///< per edge, the round in which it was asked last
-  std::uint64_t round_ = 0;
+  std::vector<std::uint8_t>& taken_;
+  std::vector<std::uint32_t>& asked_;
+  std::uint32_t round_ = 0;
   MaterialId material_ = none<MaterialId>;
   PlaneFit fit_{Point3(0.0)};
   Region region_;
   std::vector<TriangleId> triangles_;
+  std::vector<Region> regions_;
 };
+
+/// Triangles by what they are connected with over edges.
+struct Components {
+  std::vector<std::uint32_t> begin; ///< by component, and the end
+  std::vector<TriangleId> members;  ///< ascending
+};
+
+Components components_of(const Topology& topology, std::size_t triangles) {
+  DisjointSets sets(triangles);
+  for (std::uint32_t edge = 0; edge + 1 < topology.first_use.size(); ++edge) {
+    const auto uses = uses_of(topology, edge);
+    for (const EdgeUse& use : uses.subspan(1)) {
+      sets.join(index(uses[0].triangle), index(use.triangle));
+    }
+  }
+  // A root is the first of its component.
+  Components components{{0}, std::vector<TriangleId>(triangles)};
+  std::vector<std::uint32_t> component_of(triangles);
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::uint32_t root = sets.root(t);
+    if (root == t) {
+      component_of[t] = static_cast<std::uint32_t>(components.begin.size() - 1);
+      components.begin.push_back(0);
+    }
+    component_of[t] = component_of[root];
+    ++components.begin[component_of[t] + 1];
+  }
+  std::partial_sum(components.begin.begin(), components.begin.end(), components.begin.begin());
+  std::vector<std::uint32_t> next = components.begin;
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    components.members[next[component_of[t]]++] = TriangleId{t};
+  }
+  return components;
+}
 
 /// Triangles by the certainty of their planes, the widest first; equal ones by their vertices, then
 /// by index.
-std::vector<TriangleId> seed_order(const Scene& scene, const std::vector<TriangleShape>& shapes) {
-  std::vector<TriangleId> order(scene.triangles.size());
-  for (std::size_t t = 0; t < order.size(); ++t) {
-    order[t] = static_cast<TriangleId>(t);
-  }
-  tbb::parallel_sort(order.begin(), order.end(), [&](TriangleId a, TriangleId b) {
+void sort_seeds(const Scene& scene, const std::vector<TriangleShape>& shapes,
+                std::span<TriangleId> seeds) {
+  tbb::parallel_sort(seeds.begin(), seeds.end(), [&](TriangleId a, TriangleId b) {
     const double height_a = shapes[index(a)].height;
     const double height_b = shapes[index(b)].height;
     return std::tie(height_b, scene.triangles[index(a)].vertices, a) <
            std::tie(height_a, scene.triangles[index(b)].vertices, b);
   });
-  return order;
 }
 
 /// No region begins at a triangle.
@@ -220,13 +276,23 @@ TriangleShape shape_of(const std::array<Point3, 3>& corners) {
 
 Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
                      const Topology& topology, std::span<const double> tolerances) {
+  Components components = components_of(topology, scene.triangles.size());
+  Marks marks{std::vector<std::uint8_t>(scene.triangles.size()),
+              std::vector<std::uint32_t>(topology.first_use.size(), 0)};
+  std::ranges::transform(tolerances, marks.taken.begin(), [](double t) { return t < 0.0 ? 1 : 0; });
   Regions grown;
-  grown.members.reserve(scene.triangles.size());
-  RegionGrower grower(scene, shapes, topology, tolerances);
-  for (const TriangleId seed : seed_order(scene, shapes)) {
-    if (!grower.is_taken(seed)) {
-      grown.regions.push_back(grower.grow(seed, grown.members));
-    }
+  grown.members.resize(scene.triangles.size());
+  tbb::enumerable_thread_specific<RegionGrower> growers(
+      [&] { return RegionGrower(scene, shapes, topology, tolerances, marks); });
+  tbb::parallel_for(std::size_t{0}, components.begin.size() - 1, [&](std::size_t c) {
+    const std::uint32_t first = components.begin[c];
+    const std::span<TriangleId> seeds =
+        std::span(components.members).subspan(first, components.begin[c + 1] - first);
+    sort_seeds(scene, shapes, seeds);
+    growers.local().grow(seeds, first, grown.members);
+  });
+  for (const RegionGrower& grower : growers) {
+    grown.regions.insert(grown.regions.end(), grower.regions().begin(), grower.regions().end());
   }
   return in_order_of_triangles(grown, scene.triangles.size());
 }

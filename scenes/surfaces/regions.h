@@ -1,6 +1,4 @@
-// Growing plane regions across the edges of a triangle soup, and telling which of them lie in one
-// plane.
-// (Used by find_surfaces alone.)
+// Growing plane regions across the edges of a triangle soup. (Used by find_surfaces, and by repairs.)
 #pragma once
 
 #include "scenes/surfaces/plane.h"
@@ -41,15 +39,5 @@ inline std::span<const TriangleId> triangles_of(const Regions& regions, const Re
 /// `tolerances` by triangle, in metres; a triangle of a negative one is in no region.
 Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
                      const Topology& topology, std::span<const double> tolerances);
-
-struct PlaneClasses {
-  std::vector<Plane> planes;
-  std::vector<PlaneId> of_region;
-};
-
-/// Regions whose vertices are all within tolerance of one plane, whichever way they face, are one
-/// class.
-PlaneClasses classify_planes(const Scene& scene, const Regions& regions,
-                             const Precision& precision);
 
 } // namespace meninas

@@ -2,9 +2,10 @@
 
 #include "scenes/surfaces/neighbour_grid.h"
 
-#include <tbb/parallel_sort.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace meninas {
@@ -79,22 +80,33 @@ std::vector<VertexId> weld(const Scene& scene, const Precision& precision) {
   return welded;
 }
 
-std::vector<EdgeUse> edge_uses(const Scene& scene, const std::vector<VertexId>& welded) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * scene.triangles.size());
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+/// Calls `take(use)` for the sides of all triangles in their order.
+template <typename Take>
+void for_each_use(const Scene& scene, const std::vector<VertexId>& welded, const Take& take) {
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     for (std::uint8_t side = 0; side < 3; ++side) {
       const VertexId from = welded[index(scene.triangles[t].vertices[side])];
       const VertexId to = welded[index(scene.triangles[t].vertices[(side + 1) % 3])];
       if (from != to) {
-        uses.push_back(
-            {std::min(from, to), std::max(from, to), static_cast<TriangleId>(t), side, from < to});
+        take(EdgeUse{std::min(from, to), std::max(from, to), TriangleId{t}, side, from < to});
       }
     }
   }
-  tbb::parallel_sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tie(a.low, a.high, a.triangle, a.side) <
-           std::tie(b.low, b.high, b.triangle, b.side);
+}
+
+/// Sorted by their lower ends first, which are counted; few of them share one.
+std::vector<EdgeUse> edge_uses(const Scene& scene, const std::vector<VertexId>& welded) {
+  std::vector<std::uint32_t> first(scene.vertices.size() + 1, 0);
+  for_each_use(scene, welded, [&](const EdgeUse& use) { ++first[index(use.low) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<EdgeUse> uses(first.back());
+  std::vector<std::uint32_t> next = first;
+  for_each_use(scene, welded, [&](const EdgeUse& use) { uses[next[index(use.low)]++] = use; });
+  tbb::parallel_for(std::size_t{0}, scene.vertices.size(), [&](std::size_t v) {
+    std::sort(uses.begin() + first[v], uses.begin() + first[v + 1],
+              [](const EdgeUse& a, const EdgeUse& b) {
+                return std::tie(a.high, a.triangle, a.side) < std::tie(b.high, b.triangle, b.side);
+              });
   });
   return uses;
 }

@@ -5,9 +5,12 @@
 #include "radiosity/mesh/vertex_welder.h"
 #include "radiosity/scene/small_elements.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace meninas {
 
@@ -24,19 +27,35 @@ const MeshSide& side_of(const ElementMesh& mesh, ElementId element) {
   return mesh.sides[index(mesh.side_of_element[index(element)])];
 }
 
-/// Corners of facets by the place they are at, as lists of vertices.
-std::vector<std::vector<ElementVertexId>> facet_places(const ElementMesh& mesh, double grain) {
+/// Corners of facets, sorted by the place they are at.
+struct FacetPlaces {
+  std::vector<std::uint32_t> begin{0}; ///< by place, and the end
+  std::vector<ElementVertexId> vertices;
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::span<const ElementVertexId> at(std::size_t place) const {
+    return std::span(vertices).subspan(begin[place], begin[place + 1] - begin[place]);
+  }
+};
+
+FacetPlaces facet_places(const ElementMesh& mesh, double grain) {
   VertexWelder welder(grain);
   std::vector<Point3> places;
-  std::vector<std::vector<ElementVertexId>> at_place;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!is_facet(mesh, side_of(mesh, mesh.element_of_vertex[v])))
-      continue;
-    const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], places));
-    at_place.resize(places.size());
-    at_place[place].push_back(static_cast<ElementVertexId>(v));
-  }
-  return at_place;
+  std::vector<std::pair<std::uint32_t, ElementVertexId>> found;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (is_facet(mesh, side_of(mesh, mesh.element_of_vertex[v])))
+      found.emplace_back(index(welder.vertex_at(0, mesh.vertices[v], places)),
+                         static_cast<ElementVertexId>(v));
+  FacetPlaces sorted;
+  sorted.begin.resize(places.size() + 1, 0);
+  for (const auto& [place, vertex] : found)
+    ++sorted.begin[place + 1];
+  std::partial_sum(sorted.begin.begin(), sorted.begin.end(), sorted.begin.begin());
+  sorted.vertices.resize(found.size());
+  std::vector<std::uint32_t> next = sorted.begin;
+  for (const auto& [place, vertex] : found)
+    sorted.vertices[next[place]++] = vertex;
+  return sorted;
 }
 
 /// What tells at a corner of a facet whether another one continues it.
@@ -54,54 +73,87 @@ CornerNormal corner_normal(const LightScene& light, ElementVertexId v) {
 
 /// Where the file gives normals they are the same on both sides of what is smooth.
 bool is_smooth_between(const CornerNormal& a, const CornerNormal& b) {
-  const double turn = a.given && b.given ? same_normal_degrees : max_facet_turn;
-  return glm::dot(a.normal, b.normal) >= std::cos(turn * std::numbers::pi / 180.0);
+  static const double same_cosine = std::cos(same_normal_degrees * std::numbers::pi / 180.0),
+                      facet_cosine = std::cos(max_facet_turn * std::numbers::pi / 180.0);
+  return glm::dot(a.normal, b.normal) >= (a.given && b.given ? same_cosine : facet_cosine);
 }
+
+/// What the facets around each vertex are found by.
+class FacetSearch {
+public:
+  explicit FacetSearch(const LightScene& light)
+      : light_(light), own_(elements_around(light.mesh)),
+        places_(facet_places(light.mesh, vertex_grain(light.mesh, light.surfaces))),
+        normals_(light.mesh.vertices.size()) {
+    tbb::parallel_for(std::size_t{0}, places_.vertices.size(), [&](std::size_t k) {
+      const ElementVertexId v = places_.vertices[k];
+      normals_[index(v)] = corner_normal(light, v);
+    });
+  }
+
+  /// Counts, then lists.
+  VertexElements find() const {
+    const std::size_t vertices = light_.mesh.vertices.size();
+    VertexElements result;
+    result.begin.assign(vertices + 1, 0);
+    for_each_corner([&](ElementVertexId v, std::span<const ElementVertexId> beside) {
+      for (const ElementVertexId other : beside)
+        result.begin[index(v) + 1] += static_cast<std::uint32_t>(around(own_, index(other)).size());
+    });
+    std::vector<std::uint8_t> alone(vertices, 0);
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      const auto elements = around(own_, v);
+      if (result.begin[v + 1] != 0 || !std::ranges::all_of(elements, [&](ElementId element) {
+            return needs_few_samples(light_, element);
+          }))
+        return;
+      alone[v] = 1;
+      result.begin[v + 1] = static_cast<std::uint32_t>(elements.size());
+    });
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    result.elements.resize(result.begin.back());
+    for_each_corner([&](ElementVertexId v, std::span<const ElementVertexId> beside) {
+      auto to = result.elements.begin() + result.begin[index(v)];
+      for (const ElementVertexId other : beside)
+        to = std::ranges::copy(around(own_, index(other)), to).out;
+    });
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      if (alone[v] != 0)
+        std::ranges::copy(around(own_, v), result.elements.begin() + result.begin[v]);
+    });
+    return result;
+  }
+
+private:
+  /// Calls `use(vertex, vertices that stand for the facets which continue its own)`.
+  template <typename Use>
+  void for_each_corner(const Use& use) const {
+    constexpr std::size_t min_facets = 3;
+    tbb::parallel_for(std::size_t{0}, places_.size(), [&](std::size_t place) {
+      const auto vertices = places_.at(place);
+      if (vertices.size() < min_facets)
+        return;
+      std::vector<ElementVertexId> beside;
+      for (const ElementVertexId v : vertices) {
+        beside.clear();
+        for (const ElementVertexId other : vertices)
+          if (is_smooth_between(normals_[index(v)], normals_[index(other)]))
+            beside.push_back(other);
+        if (beside.size() >= min_facets)
+          use(v, std::span<const ElementVertexId>(beside));
+      }
+    });
+  }
+
+  const LightScene& light_;
+  VertexElements own_;
+  FacetPlaces places_;
+  std::vector<CornerNormal> normals_;
+};
 
 } // namespace
 
-VertexElements facets_around(const LightScene& light) {
-  const ElementMesh& mesh = light.mesh;
-  constexpr std::size_t min_facets = 3;
-  const VertexElements own = elements_around(mesh);
-  std::vector<std::vector<ElementId>> taken(mesh.vertices.size());
-  const auto places = facet_places(mesh, vertex_grain(mesh, light.surfaces));
-  std::vector<CornerNormal> normals(mesh.vertices.size());
-  for (const auto& vertices : places)
-    for (const ElementVertexId v : vertices)
-      normals[index(v)] = corner_normal(light, v);
-  for (const auto& vertices : places) {
-    if (vertices.size() < min_facets)
-      continue;
-    for (const ElementVertexId v : vertices) {
-      std::vector<ElementId>& facets = taken[index(v)];
-      std::size_t surfaces = 0;
-      for (const ElementVertexId other : vertices) {
-        if (!is_smooth_between(normals[index(v)], normals[index(other)]))
-          continue;
-        ++surfaces;
-        const auto elements = around(own, index(other));
-        facets.insert(facets.end(), elements.begin(), elements.end());
-      }
-      if (surfaces < min_facets)
-        facets.clear();
-    }
-  }
-  for (std::size_t v = 0; v < taken.size(); ++v) {
-    const auto elements = around(own, v);
-    if (taken[v].empty() && std::ranges::all_of(elements, [&](ElementId element) {
-          return needs_few_samples(light, element);
-        }))
-      taken[v].assign(elements.begin(), elements.end());
-  }
-  VertexElements result;
-  result.begin.push_back(0);
-  for (const auto& facets : taken) {
-    result.elements.insert(result.elements.end(), facets.begin(), facets.end());
-    result.begin.push_back(static_cast<std::uint32_t>(result.elements.size()));
-  }
-  return result;
-}
+VertexElements facets_around(const LightScene& light) { return FacetSearch(light).find(); }
 
 std::vector<std::uint8_t> sides_above_crease_angle(const ElementMesh& mesh, const VertexElements& facets,
                                           double degrees) {

@@ -72,6 +72,8 @@ TEST(PlaneSearch, FindsWhatAskingAllFinds) {
     for (int round = 0; round < 1500; ++round) {
       planes.push_back(some_plane(random, uncertainty));
       search.add(planes.back());
+      if (random.between(0.0, 1.0) < 0.05)
+        search.settle();
       const auto& near = planes[static_cast<std::size_t>(random.between(0.0, round + 1.0))];
       const PlaneQuery query = some_query(random, near, uncertainty);
       const bool is_picky = random.between(0.0, 1.0) < 0.3;

@@ -1,9 +1,11 @@
-#include "scenes/surfaces/surfaces.h"
+#include "scenes/surfaces/patches.h"
 
 #include "scenes/surfaces/patch_pairs.h"
 #include "scenes/surfaces/precision.h"
 #include "scenes/surfaces/regions.h"
 #include "scenes/surfaces/topology.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,20 +107,17 @@ void add_patches(const Scene& scene, const std::vector<TriangleShape>& shapes,
   }
 }
 
-void add_surfaces(const Scene& scene, const Regions& regions, const PlaneClasses& classes,
-                  SurfaceModel& model) {
-  model.surfaces.reserve(regions.regions.size());
-  for (std::size_t r = 0; r < regions.regions.size(); ++r) {
+void add_surfaces(const Scene& scene, const Regions& regions, SurfaceModel& model) {
+  model.surfaces.resize(regions.regions.size());
+  tbb::parallel_for(std::size_t{0}, model.surfaces.size(), [&](std::size_t r) {
     const Region& region = regions.regions[r];
     const auto triangles = triangles_of(regions, region);
-    Surface surface;
+    Surface& surface = model.surfaces[r];
     surface.plane = region.plane;
-    surface.plane_class = classes.of_region[r];
     surface.tolerance = region.tolerance;
     surface.material = scene.triangles[index(triangles.front())].material;
     surface.area = region.area;
     for (const TriangleId triangle : triangles) {
-      model.plane_of_triangle[index(triangle)] = surface.plane_class;
       const PatchId id = model.patch_of_triangle[index(triangle)];
       Patch& patch = model.patches[index(id)];
       if (patch.triangles[0] == triangle) {
@@ -126,13 +125,12 @@ void add_surfaces(const Scene& scene, const Regions& regions, const PlaneClasses
         surface.patches.push_back(id);
       }
     }
-    model.surfaces.push_back(std::move(surface));
-  }
+  });
 }
 
 } // namespace
 
-SurfaceModel find_surfaces(const Scene& scene) {
+SurfaceModel find_patches(const Scene& scene) {
   SurfaceModel model;
   const std::size_t count = scene.triangles.size();
   if (count == 0) {
@@ -147,16 +145,14 @@ SurfaceModel find_surfaces(const Scene& scene) {
 
   std::vector<TriangleShape> shapes(count);
   std::vector<double> tolerances(count);
-  for (std::size_t t = 0; t < count; ++t) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
     shapes[t] = shape_of(corners(scene, static_cast<TriangleId>(t)));
     tolerances[t] = precision.of(static_cast<TriangleId>(t));
-  }
+  });
   const Topology topology = find_topology(scene, precision);
   const Regions regions = grow_regions(scene, shapes, topology, tolerances);
-  const PlaneClasses classes = classify_planes(scene, regions, precision);
-  model.planes = classes.planes;
   add_patches(scene, shapes, pair_triangles(scene, regions, topology), model);
-  add_surfaces(scene, regions, classes, model);
+  add_surfaces(scene, regions, model);
   return model;
 }
 
