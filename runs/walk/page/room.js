@@ -84,6 +84,38 @@ function boundsOf(points) {
   return { low, high };
 }
 
+/// On the octahedron; 0, 0 of what has no area.
+function normalOfTriangle({ points, triangles }, triangle) {
+  const [a, b, c] = [0, 1, 2].map(k => { const v = 3 * triangles[3 * triangle + k]; return [points[v], points[v + 1], points[v + 2]]; });
+  const n = cross(minus(b, a), minus(c, a)), sum = Math.abs(n[0]) + Math.abs(n[1]) + Math.abs(n[2]) || 1, sign = x => x < 0 ? -1 : 1;
+  const [x, y] = [n[0] / sum, n[1] / sum];
+  return n[2] < 0 ? [(1 - Math.abs(y)) * sign(x), (1 - Math.abs(x)) * sign(y)] : [x, y];
+}
+
+/// The first so many triangles the other way round. Their vertices, `of` which of the room, have the normal of their
+/// plane, whose slope the shader needs: facets that share one of the room have one each. `corners` three to a triangle.
+function makeBacks(tables, count) {
+  const newest = new Int32Array(tables.points.length / 3).fill(-1), earlier = [], of = [], normals = [], corners = new Uint32Array(3 * count);
+  const tolerance = 1e-3; // less than a tenth of a degree
+  for (let k = 0; k < 3 * count; k += 3) {
+    const [x, y] = normalOfTriangle(tables, k / 3);
+    for (let c = 0; c < 3; ++c) {
+      const v = tables.triangles[k + 2 - c];
+      let own = newest[v];
+      while (own >= 0 && Math.max(Math.abs(normals[2 * own] - x), Math.abs(normals[2 * own + 1] - y)) > tolerance) own = earlier[own];
+      if (own < 0) {
+        own = of.length;
+        of.push(v);
+        normals.push(x, y);
+        earlier.push(newest[v]);
+        newest[v] = own;
+      }
+      corners[k + c] = own;
+    }
+  }
+  return { count, of, normals, corners };
+}
+
 function readRoom(data, tables) {
   tables.points = Float32Array.from(tables.position, x => x * data.step);
   const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
@@ -102,7 +134,7 @@ function readRoom(data, tables) {
     runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)) }))
     .filter(mirror => mirror.runs.length && mirror.number < mostMirrors);
   // Only mirrors show what is black from behind.
-  room.backs = room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0;
+  room.backs = makeBacks(tables, room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0);
   room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0,
     sky: Boolean(data.sky), sheets: sheetsOf(data) };
   return room;
