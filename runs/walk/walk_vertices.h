@@ -8,9 +8,9 @@
 //   look         which of the room's
 //   triangles    three vertices each;   elementEnds   those of the room
 //
-// Corners of a batch on one side of a patch that are the same row in all of these are one vertex, since no picture can tell
-// them apart. The room has many: elements that are cut at shadows' edges have their corners to themselves
-// (radiosity/solution/element_triangles.h), and where the light is the same on both sides of a cut, both have the same.
+// Corners of a batch that are the same row in all of these are one vertex. A room has many: each facet of a finely
+// tessellated object has corners of its own, and where the light is the same they differ in nothing. What is told by
+// triangle alone, as the slope of black backs, the page finds from its triangles.
 #pragma once
 
 #include "runs/walk/packed_numbers.h"

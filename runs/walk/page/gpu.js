@@ -81,7 +81,7 @@ function makeRoomArrays(gl, room, irradiance) {
   };
   const points = new Float32Array(3 * places.window);
   points.set(tables.points);
-  room.backs.of.forEach((v, k) => points.copyWithin(3 * (places.back + k), 3 * v, 3 * v + 3));
+  room.backs.of.forEach((v, k) => { for (let axis = 0; axis < 3; ++axis) points[3 * (places.back + k) + axis] = tables.points[3 * v + axis]; });
   points.set(cubeCorners.flatMap(x => times(x, room.size)), 3 * places.sky);
   const looks = new Uint16Array(places.all);
   looks.set(tables.look);

@@ -84,36 +84,40 @@ function boundsOf(points) {
   return { low, high };
 }
 
-/// On the octahedron; 0, 0 of what has no area.
-function normalOfTriangle({ points, triangles }, triangle) {
-  const [a, b, c] = [0, 1, 2].map(k => { const v = 3 * triangles[3 * triangle + k]; return [points[v], points[v + 1], points[v + 2]]; });
-  const n = cross(minus(b, a), minus(c, a)), sum = Math.abs(n[0]) + Math.abs(n[1]) + Math.abs(n[2]) || 1, sign = x => x < 0 ? -1 : 1;
-  const [x, y] = [n[0] / sum, n[1] / sum];
-  return n[2] < 0 ? [(1 - Math.abs(y)) * sign(x), (1 - Math.abs(x)) * sign(y)] : [x, y];
-}
-
 /// The first so many triangles the other way round. Their vertices, `of` which of the room, have the normal of their
 /// plane, whose slope the shader needs: facets that share one of the room have one each. `corners` three to a triangle.
-function makeBacks(tables, count) {
-  const newest = new Int32Array(tables.points.length / 3).fill(-1), earlier = [], of = [], normals = [], corners = new Uint32Array(3 * count);
-  const tolerance = 1e-3; // less than a tenth of a degree
+function makeBacks({ points, triangles }, count) {
+  const newest = new Int32Array(points.length / 3).fill(-1), earlier = new Int32Array(3 * count), corners = new Uint32Array(3 * count);
+  const of = new Uint32Array(3 * count), normals = new Float32Array(6 * count), tolerance = 1e-3; // less than a tenth of a degree
+  let made = 0;
   for (let k = 0; k < 3 * count; k += 3) {
-    const [x, y] = normalOfTriangle(tables, k / 3);
-    for (let c = 0; c < 3; ++c) {
-      const v = tables.triangles[k + 2 - c];
+    const a = 3 * triangles[k], b = 3 * triangles[k + 1], c = 3 * triangles[k + 2];
+    const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+    const vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+    // On the octahedron; of what has no area any will do.
+    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx, sum = Math.abs(nx) + Math.abs(ny) + Math.abs(nz) || 1;
+    let x = nx / sum, y = ny / sum;
+    if (nz < 0) {
+      const before = x;
+      x = (1 - Math.abs(y)) * (x < 0 ? -1 : 1);
+      y = (1 - Math.abs(before)) * (y < 0 ? -1 : 1);
+    }
+    for (let corner = 0; corner < 3; ++corner) {
+      const v = triangles[k + 2 - corner];
       let own = newest[v];
       while (own >= 0 && Math.max(Math.abs(normals[2 * own] - x), Math.abs(normals[2 * own + 1] - y)) > tolerance) own = earlier[own];
       if (own < 0) {
-        own = of.length;
-        of.push(v);
-        normals.push(x, y);
-        earlier.push(newest[v]);
+        own = made++;
+        of[own] = v;
+        normals[2 * own] = x;
+        normals[2 * own + 1] = y;
+        earlier[own] = newest[v];
         newest[v] = own;
       }
-      corners[k + c] = own;
+      corners[k + corner] = own;
     }
   }
-  return { count, of, normals, corners };
+  return { count, of: of.subarray(0, made), normals: normals.subarray(0, 2 * made), corners };
 }
 
 function readRoom(data, tables) {
