@@ -81,9 +81,7 @@ public:
       return;
     }
     room_ = walk_room(field);
-    LiveLight light{{}, ambient};
-    for (const WalkVertex& vertex : room_->vertices)
-      light.irradiance.push_back(vertex.irradiance);
+    const LiveLight light{irradiance_of(*room_), ambient};
     stage_.board.show_room(data_of(field, ambient), room_->middle, light,
                            {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors}, change);
   }
@@ -97,7 +95,8 @@ private:
                                        .cameras = walk_cameras(with_ambient(field, ambient), shown_.settings, shown_.exposure),
                                        .transform = shown_.transform,
                                        .luminous_efficacy = shown_.settings.gltf.state.luminous_efficacy,
-                                       .packed = PackedSize::quick},
+                                       .packed = PackedSize::quick,
+                                       .numbering = VertexNumbering::by_room},
                                       left_out);
     return data;
   }

@@ -28,8 +28,7 @@ float scale_of_halves(std::span<const glm::vec3> irradiance) {
   return most > 0.0F ? most / brightest_half : 1.0F;
 }
 
-void add_lamp_table(PackedNumbers& packed, const std::string& name,
-                    std::span<const glm::vec3> irradiance, float scale) {
+std::vector<std::uint32_t> halves_by_green(std::span<const glm::vec3> irradiance, float scale) {
   std::vector<std::uint32_t> rows;
   rows.reserve(3 * irradiance.size());
   for (const glm::vec3& value : irradiance) {
@@ -37,7 +36,7 @@ void add_lamp_table(PackedNumbers& packed, const std::string& name,
     const std::uint32_t green = bits(1);
     rows.insert(rows.end(), {green, bits(0) - green, bits(2) - green});
   }
-  add_table(packed, name, rows, 3);
+  return rows;
 }
 
 std::vector<glm::vec3> under_factors(std::span<const std::vector<glm::vec3>> irradiance_by_lamp,

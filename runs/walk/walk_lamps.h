@@ -32,9 +32,8 @@ void check_walk_lamps(const std::string& file, std::size_t lamps, std::size_t ve
 /// The brightest of the values becomes a large half by it, W/m^2; 1 where all is dark.
 float scale_of_halves(std::span<const glm::vec3> irradiance);
 
-/// Adds `name`: the light of one lamp at every vertex, in units of `scale`.
-void add_lamp_table(PackedNumbers& packed, const std::string& name,
-                    std::span<const glm::vec3> irradiance, float scale);
+/// Light at every vertex in units of `scale`, by rows: the bits of green, and those of red and of blue less green's.
+std::vector<std::uint32_t> halves_by_green(std::span<const glm::vec3> irradiance, float scale);
 
 /// What each vertex receives under the factors of the lamps.
 std::vector<glm::vec3> under_factors(std::span<const std::vector<glm::vec3>> irradiance_by_lamp,

@@ -25,64 +25,6 @@ using nlohmann::json;
 
 json array_of(const Vec3& x) { return json::array({x.x, x.y, x.z}); }
 
-/// A unit vector on the octahedron (Meyer et al. 2010), each of two coordinates in 2^-14.
-std::array<std::uint32_t, 2> octahedral(const glm::vec3& n) {
-  const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-  if (!(sum > 0.0F))
-    return {0, 0};
-  glm::vec2 p(n.x / sum, n.y / sum);
-  if (n.z < 0.0F)
-    p = glm::vec2((1.0F - std::abs(p.y)) * (p.x >= 0.0F ? 1.0F : -1.0F),
-                  (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F));
-  return {in_steps(double{p.x}, 0x1p-14), in_steps(double{p.y}, 0x1p-14)};
-}
-
-std::vector<glm::vec3> irradiance_of(const WalkRoom& room) {
-  std::vector<glm::vec3> irradiance;
-  for (const WalkVertex& v : room.vertices)
-    irradiance.push_back(v.irradiance);
-  return irradiance;
-}
-
-double position_step(const WalkRoom& room) {
-  float most = 0.0F;
-  for (const WalkVertex& v : room.vertices)
-    most = std::max(most, largest(glm::abs(v.position)));
-  return most > 0.0F ? double{most} * 0x1p-20 : 1.0;
-}
-
-/// Texture coordinates are kept in 2^-16 of the image.
-constexpr double texture_step = 0x1p-16;
-
-PackedNumbers packed_vertices(const WalkRoom& room, float scale) {
-  std::vector<std::uint32_t> position, irradiance, normal, place, colour, look;
-  const double step = position_step(room);
-  for (const WalkVertex& v : room.vertices) {
-    for (int k = 0; k < 3; ++k) {
-      position.push_back(in_steps(double{v.position[k]}, step));
-      irradiance.push_back(half_bits(v.irradiance[k] / scale));
-    }
-    for (const std::uint32_t n : octahedral(v.normal))
-      normal.push_back(n);
-    for (const glm::vec2& uv : {v.colour_place, v.emission_place})
-      for (int k = 0; k < 2; ++k)
-        place.push_back(in_steps(double{uv[k]}, texture_step));
-    for (int k = 0; k < 4; ++k)
-      colour.push_back(in_steps(double{std::clamp(v.colour[k], 0.0F, 1.0F)}, 1.0 / 65535.0));
-    look.push_back(v.look);
-  }
-  PackedNumbers packed;
-  add_table(packed, "position", position, 3);
-  add_table(packed, "irradiance", irradiance, 3);
-  add_table(packed, "normal", normal, 2);
-  add_table(packed, "place", place, 4);
-  add_table(packed, "colour", colour, 4);
-  add_table(packed, "look", look, 1);
-  add_table(packed, "triangles", room.indices, 3);
-  add_table(packed, "elementEnds", room.element_ends, 1);
-  return packed;
-}
-
 json tables_json(const PackedNumbers& packed) {
   json tables = json::array();
   for (const PackedTable& table : packed.tables)
@@ -271,17 +213,12 @@ json sky_json(const Environment& background, bool suns_apart) {
   return data;
 }
 
-/// The lamps with their tables, and which of them are beside the scene.
-json lamps_json(const WalkPage& page, PackedNumbers& packed) {
+json lamps_json(const WalkPage& page, std::span<const float> lights) {
   json lamps = json::array();
-  for (std::size_t l = 0; l < page.lamps.size(); ++l) {
-    const auto& irradiance = page.room.irradiance_by_lamp[l];
-    const float scale = scale_of_halves(irradiance);
-    add_lamp_table(packed, fmt::format("lamp{}", l), irradiance, scale);
+  for (std::size_t l = 0; l < page.lamps.size(); ++l)
     lamps.push_back({{"name", page.lamps[l].name},
                      {"factor", array_of(page.lamps[l].factor)},
-                     {"light", scale}});
-  }
+                     {"light", lights[l]}});
   return lamps;
 }
 
@@ -321,18 +258,15 @@ std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warni
                                  triangles, most_walk_triangles));
   check_walk_lamps(scene.file, page.lamps.size(), page.room.vertices.size());
   Pictures pictures(scene, warnings);
-  const std::vector<glm::vec3> irradiance = irradiance_of(page.room);
-  const float light = scale_of_halves(irradiance);
-  PackedNumbers packed = packed_vertices(page.room, light);
-  json lamps = lamps_json(page, packed);
+  const PageVertices vertices = page_vertices(page.room, page.lamps.size(), page.numbering);
   const LampGroups groups = page.field.scene->lamp_groups ? *page.field.scene->lamp_groups : LampGroups{};
   json data{{"title", page.title},
             {"program", fmt::format("Meninas {}", program_version())},
-            {"tables", tables_json(packed)},
-            {"packed", base64(deflated(packed.bytes, page.packed))},
-            {"step", position_step(page.room)},
-            {"light", light},
-            {"lamps", std::move(lamps)},
+            {"tables", tables_json(vertices.packed)},
+            {"packed", base64(deflated(vertices.packed.bytes, page.packed))},
+            {"step", vertices.step},
+            {"light", vertices.light},
+            {"lamps", lamps_json(page, vertices.lamp_lights)},
             {"skyLamp", number_of(groups.sky)},
             {"sunLamp", number_of(groups.sun)},
             {"looks", looks_json(page.room)},
@@ -345,7 +279,7 @@ std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warni
             {"leastThroughput", page.min_throughput},
             {"luminousEfficacy", page.luminous_efficacy},
             {"top", top_irradiance(page.lamps.empty()
-                                       ? irradiance
+                                       ? irradiance_of(page.room)
                                        : under_factors(page.room.irradiance_by_lamp, page.lamps))},
             {"falseColours", false_colours_json()}};
   json nodes = json::array();

@@ -5,6 +5,7 @@
 #include "image/view_transform.h"
 #include "runs/walk/walk_lamps.h"
 #include "runs/walk/walk_room.h"
+#include "runs/walk/walk_vertices.h"
 
 #include <span>
 #include <string>
@@ -27,6 +28,7 @@ struct WalkPage {
   double min_throughput = 1.0 / 1024.0;
   double luminous_efficacy = 683.0; ///< lm/W
   PackedSize packed = PackedSize::smallest;
+  VertexNumbering numbering = VertexNumbering::joined;
   std::vector<WalkLamp> lamps = {}; ///< those whose light the room knows, by their number
 };
 

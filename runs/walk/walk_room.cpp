@@ -346,4 +346,12 @@ private:
 
 WalkRoom walk_room(const IrradianceField& field) { return RoomBuilder(field).build(); }
 
+std::vector<glm::vec3> irradiance_of(const WalkRoom& room) {
+  std::vector<glm::vec3> irradiance;
+  irradiance.reserve(room.vertices.size());
+  for (const WalkVertex& vertex : room.vertices)
+    irradiance.push_back(vertex.irradiance);
+  return irradiance;
+}
+
 } // namespace meninas

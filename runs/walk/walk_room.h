@@ -60,4 +60,7 @@ struct WalkRoom {
 
 WalkRoom walk_room(const IrradianceField& field);
 
+/// H by vertex.
+std::vector<glm::vec3> irradiance_of(const WalkRoom& room);
+
 } // namespace meninas

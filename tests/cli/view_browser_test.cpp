@@ -101,7 +101,8 @@ TEST_F(ViewBrowser, ThePageEndsWithTheLightOfTheSolution) {
     const { data: room, ambient } = await (await fetch(location.pathname + 'room')).json(), tables = await readTables(room);
     const light = await readLight(await (await fetch(location.pathname + 'light')).arrayBuffer());
     return { same: tables.irradiance.every((x, k) => x === light.bits[k]), scale: light.scale === room.light, ambient,
-      bits: tables.irradiance.reduce((sum, x) => (31 * sum + x) % 1000003, 7), rows: tables.irradiance.length };)");
+      bits: tables.triangles.reduce((sum, v) => [0, 1, 2].reduce((s, k) => (31 * s + tables.irradiance[3 * v + k]) % 1000003, sum), 7),
+      corners: tables.triangles.length };)");
   ASSERT_TRUE(said.is_object());
   EXPECT_EQ(said.at("same"), true);
   EXPECT_EQ(said.at("scale"), true);
@@ -110,10 +111,11 @@ TEST_F(ViewBrowser, ThePageEndsWithTheLightOfTheSolution) {
   page_ = browser_->open("file://" + (folder_ / "room.html").string());
   const json walked = run(R"(
     const tables = await readTables(JSON.parse(document.getElementById('data').textContent));
-    return { bits: tables.irradiance.reduce((sum, x) => (31 * sum + x) % 1000003, 7), rows: tables.irradiance.length };)");
+    return { bits: tables.triangles.reduce((sum, v) => [0, 1, 2].reduce((s, k) => (31 * s + tables.irradiance[3 * v + k]) % 1000003, sum), 7),
+      corners: tables.triangles.length };)");
   ASSERT_TRUE(walked.is_object());
   EXPECT_EQ(said.at("bits"), walked.at("bits"));
-  EXPECT_EQ(said.at("rows"), walked.at("rows"));
+  EXPECT_EQ(said.at("corners"), walked.at("corners"));
 }
 
 TEST_F(ViewBrowser, PassTwoShowsWhatRestsAndIsSaved) {

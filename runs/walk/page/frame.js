@@ -41,7 +41,7 @@ function makePainter(gl, data, room, textures) {
       world.draws = groups.map((group, g) => {
         if (g === 0) stream.window(world, options, worlds.length - 1 - w);
         runs.filter(run => run.group === group).forEach(run => addRun(world, run));
-        if (g === 0 && world.depth > 0 && room.backs > 0)
+        if (g === 0 && world.depth > 0 && room.backs.count > 0)
           for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
         if (g === 0) stream.sky();
         return { group, ...stream.segment() };

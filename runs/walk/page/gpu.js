@@ -57,17 +57,11 @@ function numbersOf({ data, tables, probes, mirrors }) {
   return numbers;
 }
 
-/// By vertex, on the octahedron: those of bodies, and of black backs that of a triangle at the vertex.
+/// By vertex, on the octahedron: those of bodies, and of black backs.
 function normalsOf({ tables, backs }, places) {
-  const normals = new Float32Array(2 * places.sky), corner = v => [...tables.points.subarray(3 * v, 3 * v + 3)];
+  const normals = new Float32Array(2 * places.sky);
   normals.set(Float32Array.from(tables.normal, x => x / 16384));
-  for (let k = 0; k < backs; ++k) {
-    const triangle = tables.triangles.subarray(3 * k, 3 * k + 3), [a, b, c] = [...triangle].map(corner);
-    const n = cross(minus(b, a), minus(c, a)), sum = Math.abs(n[0]) + Math.abs(n[1]) + Math.abs(n[2]) || 1, sign = x => x < 0 ? -1 : 1;
-    let [x, y] = [n[0] / sum, n[1] / sum];
-    if (n[2] < 0) [x, y] = [(1 - Math.abs(y)) * sign(x), (1 - Math.abs(x)) * sign(y)];
-    for (const v of triangle) normals.set([x, y], 2 * (places.back + v));
-  }
+  normals.set(backs.normals, 2 * places.back);
   return normals;
 }
 
@@ -87,7 +81,7 @@ function makeRoomArrays(gl, room, irradiance) {
   };
   const points = new Float32Array(3 * places.window);
   points.set(tables.points);
-  points.copyWithin(3 * places.back, 0, 3 * (places.sky - places.back));
+  room.backs.of.forEach((v, k) => { for (let axis = 0; axis < 3; ++axis) points[3 * (places.back + k) + axis] = tables.points[3 * v + axis]; });
   points.set(cubeCorners.flatMap(x => times(x, room.size)), 3 * places.sky);
   const looks = new Uint16Array(places.all);
   looks.set(tables.look);

@@ -8,17 +8,6 @@
 /// The numbers of halves 0 to 65504, by their bits.
 const halfNumbers = Float32Array.from({ length: 31 << 10 }, (_, bits) => halfToNumber(bits));
 
-/// Bits of halves, from a table of green and of red and blue less green.
-function halvesOfTable(table) {
-  const halves = new Uint16Array(table.length);
-  for (let k = 0; k < table.length; k += 3) {
-    halves[k] = table[k] + table[k + 1];
-    halves[k + 1] = table[k];
-    halves[k + 2] = table[k] + table[k + 2];
-  }
-  return halves;
-}
-
 /// sum + factor times the light of a lamp, in place; `scale` is W/m^2 of a unit of the sum.
 function addLamp(sum, { halves, light }, factor, scale) {
   const [r, g, b] = times(factor, light / scale);
@@ -39,7 +28,7 @@ const plainNumber = text => /^\s*(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*$/i.test(text) 
 /// Lamps with their factors, and the room under them. `state` counts the changes.
 function makeLamps(data, tables) {
   const lamps = data.lamps.map((lamp, number) => ({ name: lamp.name, start: lamp.factor, factor: lamp.factor, light: lamp.light,
-    halves: halvesOfTable(tables["lamp" + number]) }));
+    halves: tables["lamp" + number] }));
   data.lamps.forEach((_, number) => { delete tables["lamp" + number]; });
   for (const look of data.looks) look.whole = look.emission;
   const length = tables.irradiance.length, allOfThem = Float32Array.from(tables.irradiance, halfToNumber);

@@ -84,6 +84,42 @@ function boundsOf(points) {
   return { low, high };
 }
 
+/// The first so many triangles the other way round. Their vertices, `of` which of the room, have the normal of their
+/// plane, whose slope the shader needs: facets that share one of the room have one each. `corners` three to a triangle.
+function makeBacks({ points, triangles }, count) {
+  const newest = new Int32Array(points.length / 3).fill(-1), earlier = new Int32Array(3 * count), corners = new Uint32Array(3 * count);
+  const of = new Uint32Array(3 * count), normals = new Float32Array(6 * count), tolerance = 1e-3; // less than a tenth of a degree
+  let made = 0;
+  for (let k = 0; k < 3 * count; k += 3) {
+    const a = 3 * triangles[k], b = 3 * triangles[k + 1], c = 3 * triangles[k + 2];
+    const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+    const vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+    // On the octahedron; of what has no area any will do.
+    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx, sum = Math.abs(nx) + Math.abs(ny) + Math.abs(nz) || 1;
+    let x = nx / sum, y = ny / sum;
+    if (nz < 0) {
+      const before = x;
+      x = (1 - Math.abs(y)) * (x < 0 ? -1 : 1);
+      y = (1 - Math.abs(before)) * (y < 0 ? -1 : 1);
+    }
+    for (let corner = 0; corner < 3; ++corner) {
+      const v = triangles[k + 2 - corner];
+      let own = newest[v];
+      while (own >= 0 && Math.max(Math.abs(normals[2 * own] - x), Math.abs(normals[2 * own + 1] - y)) > tolerance) own = earlier[own];
+      if (own < 0) {
+        own = made++;
+        of[own] = v;
+        normals[2 * own] = x;
+        normals[2 * own + 1] = y;
+        earlier[own] = newest[v];
+        newest[v] = own;
+      }
+      corners[k + corner] = own;
+    }
+  }
+  return { count, of: of.subarray(0, made), normals: normals.subarray(0, 2 * made), corners };
+}
+
 function readRoom(data, tables) {
   tables.points = Float32Array.from(tables.position, x => x * data.step);
   const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
@@ -102,7 +138,7 @@ function readRoom(data, tables) {
     runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)) }))
     .filter(mirror => mirror.runs.length && mirror.number < mostMirrors);
   // Only mirrors show what is black from behind.
-  room.backs = room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0;
+  room.backs = makeBacks(tables, room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0);
   room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0,
     sky: Boolean(data.sky), sheets: sheetsOf(data) };
   return room;

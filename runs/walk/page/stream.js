@@ -9,11 +9,9 @@ const mostWindowPoints = 32768, pointsOfOne = 16;
 /// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows.
 function placesBeside({ tables, backs }) {
   const vertices = tables.points.length / 3, triangles = tables.triangles.length / 3;
-  let most = 0;
-  for (let k = 0; k < 3 * backs; ++k) most = Math.max(most, tables.triangles[k] + 1);
-  const sky = vertices + most, window = sky + 8;
+  const sky = vertices + backs.of.length, window = sky + 8;
   return { vertices, back: vertices, sky, window, all: window + mostWindowPoints,
-    backTriangle: triangles, skyTriangle: triangles + backs, windowTriangle: triangles + backs + 12 };
+    backTriangle: triangles, skyTriangle: triangles + backs.count, windowTriangle: triangles + backs.count + 12 };
 }
 
 /// The eight corners of a cube, and its squares as two triangles each, their fronts inwards.
@@ -47,8 +45,7 @@ function makeStream(gl, room, positions) {
   const { tables, backs } = room, places = placesBeside(room), all = gl.createBuffer(), drawn = gl.createBuffer();
   const fixed = new Uint32Array(3 * places.windowTriangle);
   fixed.set(tables.triangles);
-  for (let k = 0; k < backs; ++k) // the other way round
-    for (let c = 0; c < 3; ++c) fixed[3 * (places.backTriangle + k) + c] = places.back + tables.triangles[3 * k + 2 - c];
+  fixed.set(backs.corners.map(k => places.back + k), 3 * places.backTriangle);
   cubeTriangles.forEach((corner, k) => { fixed[3 * places.skyTriangle + k] = places.sky + corner; });
   for (const buffer of [drawn, all]) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer); // what they are for is told by this
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * mostWindowPoints), gl.STATIC_DRAW);

@@ -27,12 +27,24 @@ function readTable(bytes, place, table) {
   return values;
 }
 
-/// The tables of the page by name.
+/// Bits of halves, from a table of green and of red and blue less green.
+function halvesOfTable(table) {
+  const halves = new Uint16Array(table.length);
+  for (let k = 0; k < table.length; k += 3) {
+    halves[k] = table[k] + table[k + 1];
+    halves[k + 1] = table[k];
+    halves[k + 2] = table[k] + table[k + 2];
+  }
+  return halves;
+}
+
+/// The tables of the page by name, those of light as bits of halves.
 async function readTables(data) {
   const bytes = await inflated(bytesOf(data.packed)), tables = {};
   let place = 0;
   for (const table of data.tables) {
-    tables[table.name] = readTable(bytes, place, table);
+    const values = readTable(bytes, place, table);
+    tables[table.name] = /^(irradiance|lamp)/.test(table.name) ? halvesOfTable(values) : values;
     place += table.rows * table.columns * table.bytes;
   }
   return tables;

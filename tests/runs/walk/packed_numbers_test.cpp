@@ -1,6 +1,8 @@
 // Tables of a page: what is packed comes back, and small differences pack small.
 #include "runs/walk/packed_numbers.h"
 
+#include "tests/runs/walk/unpacked.h"
+
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -10,24 +12,7 @@
 namespace meninas {
 namespace {
 
-/// As page/unpack.js reads a table.
-std::vector<std::uint32_t> unpacked(const PackedNumbers& packed, std::size_t which) {
-  std::size_t place = 0;
-  for (std::size_t t = 0; t < which; ++t)
-    place += packed.tables[t].rows * packed.tables[t].columns * packed.tables[t].bytes_each;
-  const PackedTable& table = packed.tables[which];
-  std::vector<std::uint32_t> values(table.rows * table.columns, 0);
-  for (std::size_t byte = 0; byte < table.bytes_each; ++byte)
-    for (std::size_t column = 0; column < table.columns; ++column)
-      for (std::size_t k = column; k < values.size(); k += table.columns)
-        values[k] |= std::to_integer<std::uint32_t>(packed.bytes[place++]) << (8 * byte);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::uint32_t folded = values[k];
-    const std::uint32_t difference = (folded & 1U) != 0 ? ~(folded >> 1U) : folded >> 1U;
-    values[k] = difference + (k < table.columns ? 0U : values[k - table.columns]);
-  }
-  return values;
-}
+using test::unpacked;
 
 TEST(PackedNumbers, ComeBackWhateverTheyAre) {
   const std::vector<std::uint32_t> small{5, 900, 6, 901, 4, 899}, wild{0, 0xffffffffU, 7, 0x80000000U};

@@ -77,13 +77,11 @@ TEST(WalkLamps, AreHalvesByGreen) {
   const std::vector<glm::vec3> irradiance{{0.5F, 1.0F, 0.25F}, {-1.0F, 2.0F, 4.0F}};
   const float scale = scale_of_halves(irradiance);
   EXPECT_EQ(scale, 4.0F / 16384.0F);
-  PackedNumbers packed;
-  add_lamp_table(packed, "lamp0", irradiance, scale);
-  ASSERT_EQ(packed.tables.size(), 1U);
-  EXPECT_EQ(packed.tables[0].columns, 3U);
-  // 4096 is the half of exponent 12: twice as bright is one exponent, 1024, more.
-  EXPECT_EQ(half_bits(1.0F / scale), (12U + 15U) << 10U);
-  EXPECT_EQ(packed.tables[0].bytes_each, 2U) << "27,648 and differences of at most that";
+  // 4096 is the half of exponent 12: twice as bright is one exponent, 1024, more. What is below 0 is dark.
+  const std::uint32_t one = half_bits(1.0F / scale), exponent = 1024;
+  EXPECT_EQ(one, (12U + 15U) << 10U);
+  EXPECT_EQ(halves_by_green(irradiance, scale),
+            (std::vector<std::uint32_t>{one, 0U - exponent, 0U - 2U * exponent, one + exponent, 0U - one - exponent, exponent}));
   EXPECT_EQ(scale_of_halves({}), 1.0F);
 }
 
