@@ -97,7 +97,8 @@ void add_picture_options(Options& command, RenderOptions& options) {
       });
   add("--diffuse", "interpolated|direct|gather",
       "light on diffuse surfaces: interpolated between vertices, direct light computed as fine as "
-      "pixels, or all light gathered at each hit [direct; interpolated with --quality draft]",
+      "pixels, or all light gathered at each hit [direct; interpolated with --quality draft, but "
+      "in scenes of many small triangles]",
       [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
   add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
