@@ -62,7 +62,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings);
 /// With a diffuse term that is given, or else the preset's for this scene:
 /// `interpolated` where its field does not know its light without that of emitters; `direct` where small surfaces
 /// (radiosity/mesh/small_surfaces.h) give the mesh more vertices than a picture can show: finding direct light
-/// where it is seen then takes no longer than at all vertices, and shadows end where they do.
+/// where it is seen then takes about as long as at all vertices, and shadows end where they do.
 RunSettings settled(RunSettings settings, const LightScene& light, bool knows_indirect = true);
 
 /// Pass two of a picture, or a part of one, of that size.

@@ -86,11 +86,10 @@ KeptVertices joined_vertices(const WalkRoom& room, std::span<const VertexTable> 
              return std::ranges::equal(table.row(a), table.row(b));
            });
   };
-  std::unordered_set<std::uint32_t, decltype(hash), decltype(alike)> known(0, hash, alike);
   std::vector<std::uint32_t> numbers(room.vertices.size(), not_met);
   KeptVertices kept;
   for (const WalkBatch& batch : room.batches) {
-    known.clear();
+    std::unordered_set<std::uint32_t, decltype(hash), decltype(alike)> known(0, hash, alike);
     for (const std::uint32_t v : std::span(room.indices).subspan(3 * std::size_t{batch.first}, 3 * std::size_t{batch.count})) {
       if (numbers[v] == not_met) {
         const auto [first, is_new] = known.insert(v);
