@@ -1,6 +1,7 @@
 #include "form_factors/visible_parts.h"
 
 #include "mirror/window.h"
+#include "scenes/sampling.h"
 
 #include <algorithm>
 #include <map>
@@ -9,21 +10,72 @@ namespace meninas {
 
 namespace {
 
+void set_polygon(Face& face, const ConvexPolygon& polygon, double tolerance) {
+  face.polygon = polygon;
+  face.area = glm::length(area_vector(polygon.span()));
+  face.centre = Point3(0.0);
+  for (const auto& vertex : polygon.span())
+    face.centre += vertex / static_cast<double>(polygon.size);
+  face.radius = 0.0;
+  for (const auto& vertex : polygon.span())
+    face.radius = std::max(face.radius, glm::distance(vertex, face.centre));
+  face.radius += tolerance;
+}
+
 Face make_face(const SurfaceModel& model, const Surface& surface, NodeId node,
                const ConvexPolygon& polygon) {
   Face face;
-  face.polygon = polygon;
   face.plane = surface.plane;
   face.plane_class = surface.plane_class;
   face.material = surface.material;
   face.node = node;
-  face.area = glm::length(area_vector(polygon.span()));
-  for (const auto& vertex : polygon.span())
-    face.centre += vertex / static_cast<double>(polygon.size);
-  for (const auto& vertex : polygon.span())
-    face.radius = std::max(face.radius, glm::distance(vertex, face.centre));
-  face.radius += model.tolerance;
+  set_polygon(face, polygon, model.tolerance);
   return face;
+}
+
+/// Whether no side of `a` has all of `b`, which lies in its plane, outside or within `depth` of it.
+bool reaches_into(const ConvexPolygon& a, const ConvexPolygon& b, const Direction& normal,
+                  double depth) {
+  for (std::size_t k = 0; k < a.size; ++k) {
+    const Vec3 edge = a.vertices[k + 1 < a.size ? k + 1 : 0] - a.vertices[k];
+    const Vec3 inwards = glm::cross(normal, edge);
+    const auto is_outside = [&](const Point3& vertex) {
+      return glm::dot(inwards, vertex - a.vertices[k]) <= depth * glm::length(inwards);
+    };
+    if (std::ranges::all_of(b.span(), is_outside))
+      return false;
+  }
+  return true;
+}
+
+bool overlap(const Face& a, const Face& b, double tolerance) {
+  return glm::distance(a.centre, b.centre) <= a.radius + b.radius &&
+         glm::dot(a.plane.normal, b.plane.normal) > 0.0 &&
+         reaches_into(a.polygon, b.polygon, a.plane.normal, tolerance) &&
+         reaches_into(b.polygon, a.polygon, b.plane.normal, tolerance);
+}
+
+/// By face, those before it that overlap it.
+std::vector<std::vector<std::size_t>> covers_of(const std::vector<Face>& faces, double tolerance) {
+  std::map<PlaneId, std::vector<std::size_t>> by_plane;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    by_plane[faces[f].plane_class].push_back(f);
+  std::vector<std::vector<std::size_t>> covers(faces.size());
+  for (auto& [plane, members] : by_plane) {
+    // Along an axis of the plane only those whose intervals overlap can do so themselves.
+    const Direction along = tangent_frame(faces[members.front()].plane.normal).tangent;
+    const auto begin = [&](std::size_t f) {
+      return glm::dot(along, faces[f].centre) - faces[f].radius;
+    };
+    std::ranges::stable_sort(members, {}, begin);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const double end = begin(members[k]) + 2.0 * faces[members[k]].radius;
+      for (std::size_t l = k + 1; l < members.size() && begin(members[l]) < end; ++l)
+        if (overlap(faces[members[k]], faces[members[l]], tolerance))
+          covers[std::max(members[k], members[l])].push_back(std::min(members[k], members[l]));
+    }
+  }
+  return covers;
 }
 
 /// The inward normals of the cone's sides; none when the apex is in the blocker's plane.
@@ -143,6 +195,25 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
         faces.push_back(make_face(surfaces, surface, node, polygon));
   }
   return faces;
+}
+
+std::vector<Face> without_overlaps(const std::vector<Face>& faces, double tolerance) {
+  const auto covers = covers_of(faces, tolerance);
+  std::vector<Face> once;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    std::vector<ConvexPolygon> parts{faces[f].polygon};
+    for (const std::size_t cover : covers[f]) {
+      // Seen straight from above, a cover's cone cuts the plane along the cover's own edges.
+      const Face& above = faces[cover];
+      subtract_cone(parts, above.centre + above.radius * above.plane.normal, above.polygon);
+    }
+    for (const ConvexPolygon& part : parts) {
+      once.push_back(faces[f]);
+      if (!covers[f].empty())
+        set_polygon(once.back(), part, tolerance);
+    }
+  }
+  return once;
 }
 
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,

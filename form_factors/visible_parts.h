@@ -28,6 +28,11 @@ struct Face {
 /// As few convex faces as joining whole edges gives. Patches of different nodes are not joined.
 std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 
+/// Faces that together cover what those given do, each place once from each side: where several of
+/// one plane class face the same way and overlap by more than the tolerance, the first there stays.
+/// Rays meet one of them as well; counted twice, form factors in a closed room would exceed one.
+std::vector<Face> without_overlaps(const std::vector<Face>& faces, double tolerance);
+
 /// The face cut along the lines where others stand on it:
 /// across them what is seen jumps, between them it changes steadily.
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,

@@ -65,7 +65,7 @@ void add_targets(const Scene& scene, std::span<const NodeSet> to, NodeSides side
     if (found[s] == 0)
       throw UsageError(scene.file, fmt::format("node '{}' has no area that could receive light",
                                                name_of(scene, to[s])));
-  view.targets = sides_of_faces(scene, faces, sides);
+  view.targets = without_overlaps(sides_of_faces(scene, faces, sides), view.tolerance);
   for (const Face& face : view.targets)
     view.groups.push_back(sets[index(face.node)]);
 }

@@ -280,6 +280,13 @@ std::vector<Face> sides_of_faces(const Scene& scene, std::span<const Face> faces
   return result;
 }
 
+static double area_of(const std::vector<Face>& faces) {
+  double area = 0.0;
+  for (const Face& face : faces)
+    area += face.area;
+  return area;
+}
+
 CountedSides counted_sides(const SideQuestion& question, const std::vector<Face>& from) {
   const std::vector<FaceViews> views = Survey(question, from).run();
   CountedSides counted;
@@ -300,16 +307,17 @@ CountedSides counted_sides(const SideQuestion& question, const std::vector<Face>
         left.from_behind += area * view.lines;
       }
     }
-    if (counts[0]) {
+    if (counts[0])
       counted.faces.push_back(from[f]);
-      counted.fronts += area;
-    }
-    if (counts[1]) {
+    if (counts[1])
       backs.push_back(turned_round(from[f]));
-      counted.backs += area;
-    }
   }
+  // The fronts come first, so that backs which lie on them take no part of theirs.
+  const double tolerance = question.surfaces.tolerance;
+  counted.fronts = area_of(without_overlaps(counted.faces, tolerance));
   counted.faces.insert(counted.faces.end(), backs.begin(), backs.end());
+  counted.faces = without_overlaps(counted.faces, tolerance);
+  counted.backs = area_of(counted.faces) - counted.fronts;
   if (question.to.size() == 1)
     left.black = 0.0; // it takes nothing from the one that is asked for
   counted.not_counted = lines_of(left);

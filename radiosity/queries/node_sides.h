@@ -10,6 +10,7 @@
 // So F = 1/A sum A_s F_s over these sides s, the sides of B are all there are, and
 // reciprocity holds for A and B that lie on the same sides of everything between.
 // By (1) the inside of a closed double-sided box does not dilute what its outside sends.
+// Where faces lie on one another in one plane, the side there counts once, as that of the first.
 // For several B together (rows of a matrix) a side counts when it sees any of them.
 //
 // What a side sees is found by cosine-distributed rays, also in mirrors, and by straight lines

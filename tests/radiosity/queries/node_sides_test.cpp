@@ -117,6 +117,44 @@ std::vector<double> row_sums(const Scene& scene, NodeSides sides = NodeSides::fa
   return sums;
 }
 
+/// The rectangle [x0, x1] x [0, 1] in the plane y = height, its front up.
+void add_strip(Scene& scene, const std::string& name, double x0, double x1, double height) {
+  add_polygon(scene, name, {{x0, height, 1}, {x1, height, 1}, {x1, height, 0}, {x0, height, 0}},
+              card);
+}
+
+// Two sheets that overlap are, to the other, one that is as long as both: a sheet counted twice
+// where the two overlap would give up to a third more, or a mean over an area that is not there.
+TEST(NodeSides, FacesThatLieOnOneAnotherCountOnce) {
+  Scene whole, overlapping;
+  add_strip(whole, "a", 0.0, 3.0, 0.0);
+  add_strip(whole, "b", 0.0, 3.0, 1.0);
+  add_strip(overlapping, "a", 0.0, 2.0, 0.0);
+  add_strip(overlapping, "a", 1.0, 3.0, 0.0);
+  add_strip(overlapping, "b", 0.0, 2.5, 1.0);
+  add_strip(overlapping, "b", 0.5, 3.0, 1.0);
+  add_strip(overlapping, "b", 1.0, 2.0, 1.0);
+  for (const auto method : {NodeFactorMethod::analytic, NodeFactorMethod::rays}) {
+    NodeFactorSettings settings;
+    settings.method = method;
+    const Asked asked = ask(overlapping, "a", "b", settings);
+    // The analytic method is within its accuracy, rays within four standard errors.
+    EXPECT_NEAR(asked.factor.total.value, ask(whole, "a", "b").factor.total.value,
+                4.0 * asked.factor.total.error + 2.0 * settings.accuracy);
+    EXPECT_NEAR(asked.area, 3.0, 1e-12);
+  }
+}
+
+// Two crossing boxes a thousandth as high as wide, whose bottoms and tops lie in two planes: from
+// inside nearly all that is seen is the other plane. What is counted twice would exceed one.
+TEST(NodeSides, CrossingBoxesOfOneHeightSeeNoMoreThanAll) {
+  Scene scene;
+  add_room(scene, {0, 0, 0}, {1, 1, 1e-3}, walls_of(card));
+  add_room(scene, {0.5, 0.25, 0}, {1.5, 0.75, 1e-3}, walls_of(card));
+  for (const double sum : row_sums(scene, NodeSides::front))
+    EXPECT_LE(sum, 1.0 + 6.0 * NodeFactorSettings{}.accuracy) << "six factors of that accuracy";
+}
+
 // A sheet from floor to ceiling makes two closed rooms of one: all that is sent arrives.
 // The tolerance is that of the sum of seven factors.
 TEST(NodeSides, RoomsWithAPartitionClose) {
