@@ -21,7 +21,7 @@ NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<T
   // so that their samples are not the same, each round has its seed.
   settings.seed = hash(settings.seed, nodes.empty() ? 0 : index(nodes.front()), 0x40de);
   const auto receiver = [&](std::size_t row) {
-    return area_of(light, tree.nodes[index(nodes[row])]);
+    return area_of(light, tree, nodes[row]);
   };
   FormFactors factors = assemble_rows(light, nodes.size(), receiver, settings, progress);
   NodeCut part;
@@ -75,7 +75,7 @@ NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<st
   return cut;
 }
 
-/// Receivers on a part of which something stands, or may stand:
+/// Receivers on a part of which something stands, or may stand: clusters that meet black backs, and
 /// of those that meet black backs, elements that are covered are found as far
 /// as they are several of the cells that the receiver is looked at in.
 std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& cut) {
@@ -83,7 +83,8 @@ std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& c
   std::vector<std::uint8_t> marked;
   for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
     const TreeNode& node = tree.nodes[index(cut.receivers[r])];
-    const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > most_elements;
+    const bool meets_black = cut.closure[r].black > 0.0F &&
+                             (is_cluster(node) || node.leaf_count > most_elements);
     const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != wholly_covered;
     marked.push_back(!is_leaf(node) && partly ? 1 : 0);
   }
@@ -128,12 +129,18 @@ std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree&
   std::vector<std::uint32_t> most(mesh.sides.size()); // elements of a receiver, by side
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const TreeNode& node = tree.nodes[n];
+    if (is_cluster(node)) {
+      if (!node.cut)
+        nodes.push_back(static_cast<TreeNodeId>(n));
+      continue;
+    }
     std::uint32_t& limit = most[index(node.side)];
-    if (node.parent == none<TreeNodeId>)
+    const bool is_top = node.parent == none<TreeNodeId> || is_cluster(tree.nodes[index(node.parent)]);
+    if (is_top)
       limit = std::max(1U, static_cast<std::uint32_t>(
                                node.leaf_count / first_on_side(areas[index(node.side)] / all)));
     const auto is_divided = [&](const TreeNode& other) {
-      return !is_leaf(other) && (other.leaf_count > limit || other.cut);
+      return !is_leaf(other) && (other.cut || (!is_cluster(other) && other.leaf_count > limit));
     };
     const bool above_is_divided =
         node.parent == none<TreeNodeId> || is_divided(tree.nodes[index(node.parent)]);

@@ -1,5 +1,7 @@
 #include "radiosity/transport/element_hierarchy.h"
 
+#include "radiosity/mesh/face_clusters.h"
+
 #include <algorithm>
 
 namespace meninas {
@@ -104,7 +106,7 @@ TreeNode node_of(const ElementMesh& mesh, const MeshSide& side, SideId id, const
 }
 
 /// Leaves are counted from below, and numbered from above: a node's come before those of the next.
-void number_leaves(std::size_t tops, NodeTree& tree) {
+void number_leaves(NodeTree& tree) {
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     TreeNode& node = tree.nodes[n];
     node.leaf_count = is_leaf(node) ? 1 : 0;
@@ -117,7 +119,7 @@ void number_leaves(std::size_t tops, NodeTree& tree) {
   std::uint32_t next = 0;
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     TreeNode& node = tree.nodes[n];
-    if (n < tops) {
+    if (node.parent == none<TreeNodeId>) {
       node.first_leaf = next;
       next += node.leaf_count;
     }
@@ -144,7 +146,8 @@ void mark_walled(const ElementMesh& mesh, std::uint32_t number, std::size_t leaf
       continue;
     const Vec2 uv =
         patch_uv_of(mesh, cell, 0.5 * (corners[k] + corners[(k + 1) % corners.size()]));
-    for (TreeNodeId above = tree.nodes[leaf].parent; above != none<TreeNodeId>;
+    for (TreeNodeId above = tree.nodes[leaf].parent;
+         above != none<TreeNodeId> && !is_cluster(tree.nodes[index(above)]);
          above = tree.nodes[index(above)].parent) {
       constexpr double border = 1e-9;
       TreeNode& node = tree.nodes[index(above)];
@@ -170,18 +173,36 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
     tree.nodes.push_back(node);
     pieces.push_back(p);
   };
-  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+  const FaceClusters clusters = face_clusters(mesh, surfaces);
+  const std::size_t first_side = clusters.size();
+  tree.nodes.resize(first_side);
+  pieces.resize(first_side);
+  const auto add_side = [&](SideId id, TreeNodeId cluster) {
+    const MeshSide& side = mesh.sides[index(id)];
+    const Shape shape = side.triangle ? Shape::wedge : Shape::grid;
+    add(id, {shape, 0, 0, side.nu, side.nv}, cluster);
+  };
+  std::vector<std::uint8_t> clustered(mesh.sides.size(), 0);
+  for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+    tree.nodes[c].first_child = static_cast<TreeNodeId>(tree.nodes.size());
+    tree.nodes[c].child_count = static_cast<std::uint32_t>(clusters.of(c).size());
+    for (const SideId id : clusters.of(c)) {
+      add_side(id, TreeNodeId{c});
+      clustered[index(id)] = 1;
+    }
+  }
+  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
     const MeshSide& side = mesh.sides[s];
     const auto& corners = surfaces.patches[index(side.patch)].corners;
     const double along_u = glm::distance(corners[0], corners[1]) / side.nu;
     const double along_v = glm::distance(corners[1], corners[2]) / side.nv;
     aspects.push_back(side.triangle ? 1.0 : along_u / std::max(along_v, 1e-300));
-    add(static_cast<SideId>(s),
-        {side.triangle ? Shape::wedge : Shape::grid, 0, 0, side.nu, side.nv}, none<TreeNodeId>);
+    if (clustered[s] == 0)
+      add_side(SideId{s}, none<TreeNodeId>);
   }
 
   // Level by level: the children of a level make the next.
-  for (std::size_t first = 0, last = tree.nodes.size(); first < last;
+  for (std::size_t first = first_side, last = tree.nodes.size(); first < last;
        first = last, last = tree.nodes.size()) {
     for (std::size_t n = first; n < last; ++n) {
       if (tree.nodes[n].element != none<ElementId>)
@@ -196,17 +217,38 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   }
   if (!mesh.walled_edges.empty())
     for (std::size_t n = 0; n < tree.nodes.size(); ++n)
-      if (pieces[n].shape == Shape::cell && is_leaf(mesh.cells[pieces[n].cell]))
+      if (n >= first_side && pieces[n].shape == Shape::cell && is_leaf(mesh.cells[pieces[n].cell]))
         mark_walled(mesh, pieces[n].cell, n, tree);
-  number_leaves(mesh.sides.size(), tree);
+  number_leaves(tree);
   return tree;
 }
 
-ReceiverArea area_of(const LightScene& light, const TreeNode& node) {
+ReceiverArea area_of(const LightScene& light, const NodeTree& tree, TreeNodeId id) {
+  const TreeNode& node = tree.nodes[index(id)];
+  if (is_cluster(node)) {
+    ReceiverArea area;
+    area.faces = elements_below(tree, id);
+    return area;
+  }
   if (is_leaf(node))
     return receiver_of(light, node.element);
   return part_of_side(light, light.mesh.sides[index(node.side)], node.triangle,
                       [&](Vec2 st) { return node.uv + st * node.extent; });
+}
+
+std::vector<TreeNodeId> with_faces_of_clusters(const NodeTree& tree, std::span<const TreeNodeId> nodes) {
+  std::vector<TreeNodeId> faces;
+  for (const TreeNodeId id : nodes) {
+    const TreeNode& node = tree.nodes[index(id)];
+    if (!is_cluster(node)) {
+      faces.push_back(id);
+      continue;
+    }
+    for (std::uint32_t k = 0; k < node.child_count; ++k)
+      faces.push_back(static_cast<TreeNodeId>(index(node.first_child) + k));
+  }
+  std::ranges::sort(faces);
+  return faces;
 }
 
 } // namespace meninas

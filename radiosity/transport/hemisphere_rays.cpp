@@ -308,13 +308,25 @@ static void forget_rays(GatheredRays& result, GatherWorkspace& work) {
   work.next.clear();
 }
 
+/// Of a cluster each face is a source of its own, and all share one net.
+static RaySource source_of(const LightScene& light, const ReceiverArea& receiver, std::uint32_t seed) {
+  RaySource source = ray_source(receiver, light.rays.frame(), seed);
+  double area = 0.0;
+  for (const ElementId face : receiver.faces) {
+    source.faces.push_back(ray_source(receiver_of(light, face), light.rays.frame(), seed));
+    source.area_up_to.push_back(area += light.mesh.area[index(face)]);
+  }
+  return source;
+}
+
 void gather_rays(const LightScene& light, const HemisphereSamples& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
-  const RaySource source = ray_source(receiver, light.rays.frame(), seed);
+  const RaySource source = source_of(light, receiver, seed);
   work.seed = seed;
   trace_first_legs(light, net, source, settings, work);
   GatheredRays& result = work.result;
-  if (result.black > 0.0 && !receiver.is_point()) {
+  // What stands on a cluster, its faces are to tell.
+  if (result.black > 0.0 && !receiver.is_point() && receiver.faces.empty()) {
     const Covered covered = find_covered(light, net, source, work.black_lanes);
     if (covered.cells == wholly_covered)
       forget_rays(result, work);

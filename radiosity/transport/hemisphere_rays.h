@@ -34,6 +34,7 @@ namespace meninas {
 RowClosure closure_of(const GatheredRays& gathered);
 
 /// Traces the net from the receiver; the result stands in workspace.result.
+/// A cluster of faces does not tell which part of it is covered.
 void gather_rays(const LightScene& light, const HemisphereSamples& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings,
                  GatherWorkspace& workspace);

@@ -160,7 +160,39 @@ void set_directions(const LaneDirections& local, const RaySource& source, RayPac
   }
 }
 
+/// A ray starts on the face that holds the share s of the cluster's area, at what is left of s: a map that keeps
+/// shares of area. It leaves about the normal of that face.
+static void set_rays_of_faces(const NetPacket& net, const RaySource& source, RayPacket& packet) {
+  const LanePlaces places = places_of(net, source);
+  const auto local = cosine_hemisphere(unit_floats(net.coordinates[2], source.shift[2]),
+                                       unit_floats(net.coordinates[3], source.shift[3]));
+  const std::vector<double>& up_to = source.area_up_to;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const double wanted = double{places.s[k]} * up_to.back();
+    const auto at = std::ranges::upper_bound(up_to, wanted) - up_to.begin();
+    const auto f = std::min(static_cast<std::size_t>(at), up_to.size() - 1);
+    const double before = f == 0 ? 0.0 : up_to[f - 1];
+    const RaySource& face = source.faces[f];
+    const double s = std::clamp((wanted - before) / (up_to[f] - before), 0.0, 1.0);
+    const Point3 x = point_in(face.area, Vec2(s, double{places.t[k]}));
+    const Vec3 d = double{local.x[k]} * face.tangents.tangent +
+                   double{local.y[k]} * face.tangents.bitangent + double{local.z[k]} * face.area.normal;
+    packet.origin_x[k] = static_cast<float>(x.x);
+    packet.origin_y[k] = static_cast<float>(x.y);
+    packet.origin_z[k] = static_cast<float>(x.z);
+    packet.direction_x[k] = static_cast<float>(d.x);
+    packet.direction_y[k] = static_cast<float>(d.y);
+    packet.direction_z[k] = static_cast<float>(d.z);
+    packet.leaving[k] = index(face.area.plane_class);
+  }
+  std::fill_n(packet.max_distance, packet_size, std::numeric_limits<float>::infinity());
+}
+
 void set_rays(const NetPacket& net, const RaySource& source, RayPacket& packet) {
+  if (!source.faces.empty()) {
+    set_rays_of_faces(net, source, packet);
+    return;
+  }
   set_origins(places_of(net, source), source.area, packet);
   const auto directions = cosine_hemisphere(unit_floats(net.coordinates[2], source.shift[2]),
                                             unit_floats(net.coordinates[3], source.shift[3]));

@@ -8,11 +8,13 @@
 #include "scenes/rays/ray_scene.h"
 #include "scenes/sampling.h"
 
+#include <span>
 #include <vector>
 
 namespace meninas {
 
 struct RegionElement; // element_mesh.h
+enum class ElementId : std::uint32_t;
 
 /// Sixteen points of a net, lane by lane:
 /// two coordinates of the place in the receiver, two of the direction.
@@ -42,11 +44,13 @@ struct ReceiverArea {
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror
   bool few_rays = false; ///< little depends on its row (scene/small_elements.h)
 
+  std::span<const ElementId> faces = {}; ///< of a cluster of elements, which must outlive it; of itself it has nothing else
+
   const RegionElement* region = nullptr; ///< of the area; must outlive it
   Point3 region_centre{0.0}; ///< its points are (x - centre) scale
   double region_scale = 1.0;
 
-  bool is_point() const { return edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
+  bool is_point() const { return faces.empty() && edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
 };
 
 /// The frame of the normal that turns with the surface.
@@ -75,6 +79,8 @@ struct RaySource {
   ReceiverArea area;
   TangentFrame tangents;
   std::array<std::uint32_t, 4> shift;
+  std::vector<RaySource> faces = {};     ///< of a cluster
+  std::vector<double> area_up_to = {}; ///< by face of a cluster, m^2: its own and of all before
 };
 RaySource ray_source(const ReceiverArea& receiver, const RayFrame& frame, std::uint32_t seed);
 

@@ -205,7 +205,7 @@ TEST(Hierarchical, TreesAndCutsAreWhole) {
       double below = 0.0;
       for (const ElementId element : elements_below(tree, static_cast<TreeNodeId>(n)))
         below += l->mesh.area[index(element)];
-      const ReceiverArea area = area_of(*l->light, node);
+      const ReceiverArea area = area_of(*l->light, tree, static_cast<TreeNodeId>(n));
       // Half the product of the diagonals, or of two edges of a triangle;
       // as far as the floats of a file make them planar.
       const Vec3 opposite = area.edge_u + area.edge_v + area.edge_uv;

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace meninas::test {
 namespace {
@@ -18,20 +17,7 @@ Scene room_with_bulb(int n) {
   std::array<Material, 6> walls;
   walls.fill(diffuse(0.5));
   add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
-  const auto at = [&](int i, int k) {
-    const double polar = std::numbers::pi * i / n, turn = std::numbers::pi * k / n;
-    return Point3(2.0, 1.6, 2.0) + 0.15 * Vec3(std::sin(polar) * std::cos(turn), std::cos(polar),
-                                               -std::sin(polar) * std::sin(turn));
-  };
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 2 * n; ++k) {
-      std::vector<Point3> face{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)};
-      if (i == 0)
-        face.pop_back();
-      if (i == n - 1)
-        face.erase(face.begin() + 2);
-      add_polygon(scene, "bulb", face, diffuse(0.5, 10.0));
-    }
+  add_ball(scene, "bulb", {2.0, 1.6, 2.0}, 0.15, n, diffuse(0.5, 10.0));
   return scene;
 }
 

@@ -1,0 +1,83 @@
+// Clusters of faces as receivers: their rows against closed forms, and what is solved by them against rows of all faces.
+#include "form_factors/point_form_factor.h"
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/hierarchical/node_cut.h"
+#include "tests/radiosity/solved.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+/// A ball of 5,000 faces in a room whose ceiling is brighter than the rest.
+Scene room_with_ball(double wall, double ceiling, double ball) {
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(diffuse(wall));
+  walls[3] = diffuse(ceiling);
+  add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
+  add_ball(scene, "ball", {2.0, 1.6, 2.0}, 0.15, 50, diffuse(ball));
+  return scene;
+}
+
+// Nothing stands between a ball and the ceiling but the ball's own horizon: F of each face by Lambert's formula,
+// the mean of its faces for a cluster. Rays about one normal alone would be off by up to sin 25 degrees / 2.
+TEST(ClusterReceivers, RowsAreMeansOverFaces) {
+  const auto l = lit(room_with_ball(0.5, 0.5, 0.5), {.element_size = 0.5});
+  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  constexpr int rays = 256;
+  const NodeCut cut = first_cut(*l->light, tree, {.rays = rays}, {});
+  const auto ceiling_elements = elements_of(*l, "y1");
+  std::vector<std::uint8_t> is_ceiling(element_count(l->mesh), 0);
+  for (const std::size_t e : ceiling_elements)
+    is_ceiling[e] = 1;
+  const std::array<Point3, 4> ceiling{Point3(0, 2.6, 0), {4, 2.6, 0}, {4, 2.6, 4}, {0, 2.6, 4}};
+  std::size_t clusters = 0;
+  double squares = 0.0, variance = 0.0;
+  for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
+    if (!is_cluster(tree.nodes[index(cut.receivers[r])]))
+      continue;
+    ++clusters;
+    double sampled = 0.0, all = 0.0, exact = 0.0, area = 0.0;
+    for (auto k = cut.rows.row_begin[r]; k < cut.rows.row_begin[r + 1]; ++k) {
+      all += double{cut.rows.weights[k]};
+      sampled += is_ceiling[cut.rows.columns[k]] != 0 ? double{cut.rows.weights[k]} : 0.0;
+    }
+    EXPECT_NEAR(all, 1.0, 1e-5) << "a ball sees nothing but the room";
+    for (const ElementId e : elements_below(tree, cut.receivers[r])) {
+      const MeshSide& side = l->mesh.sides[index(l->mesh.side_of_element[index(e)])];
+      exact += l->mesh.area[index(e)] *
+               point_form_factor(centre_of(l->mesh, e), side.normal, ceiling);
+      area += l->mesh.area[index(e)];
+    }
+    exact /= area;
+    squares += (sampled - exact) * (sampled - exact);
+    variance += exact * (1.0 - exact) / (4 * rays);
+  }
+  ASSERT_GT(clusters, 100U);
+  // Rays that are spread evenly err less than independent ones.
+  EXPECT_LT(squares, variance);
+}
+
+// Everything glows and reflects so that B = 1: E = 1 - rho. Clusters of a convex body see nothing but that.
+TEST(ClusterReceivers, AreExactInAFurnace) {
+  Scene scene = room_with_ball(0.5, 0.5, 0.5);
+  for (Material& material : scene.materials)
+    material.emission = Rgb(0.5 / std::numbers::pi);
+  PassOneSettings settings;
+  settings.mesh.element_size = 0.5;
+  settings.cut = MeshCut::hierarchical;
+  settings.solver.tolerance = 1e-7;
+  const auto l = lit(scene, settings.mesh);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
+  EXPECT_LT(solution.links->receivers, element_count(l->mesh) / 4);
+  for (const std::size_t e : elements_of(*l, "ball"))
+    ASSERT_NEAR(solution.radiosity[e].g, 1.0, 0.01) << "direct light is sampled to 1 %";
+}
+
+} // namespace
+} // namespace meninas::test
