@@ -35,7 +35,7 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
   VertexSamples found = make_samples(light, facets);
   if (!facets.elements.empty())
-    average_facets(light, elements, facets, {form_factors, settings.mirrored}, workspaces,
+    average_facets(light, elements, facets, {form_factors, {}, settings.mirrored}, workspaces,
                    found.field);
 
   InterpolatedField result;

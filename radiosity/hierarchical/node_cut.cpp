@@ -186,6 +186,15 @@ std::vector<ContactMask> covered_elements(const NodeTree& tree, const NodeCut& c
   return covered;
 }
 
+std::vector<std::uint8_t> clustered_elements(const NodeTree& tree, const NodeCut& cut) {
+  std::vector<std::uint8_t> clustered(tree.elements.size(), 0);
+  for (const TreeNodeId id : cut.receivers)
+    if (is_cluster(tree.nodes[index(id)]))
+      for (const ElementId e : elements_below(tree, id))
+        clustered[index(e)] = 1;
+  return clustered;
+}
+
 std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
                                   const NodeCut& cut) {
   std::vector<float> exposed = mesh.solid;

@@ -31,11 +31,14 @@ struct NodeCut {
 /// By ElementId: the cells on which something stands.
 std::vector<ContactMask> covered_elements(const NodeTree& tree, const NodeCut& cut);
 
+/// By ElementId, 1: it receives as one of a cluster of faces.
+std::vector<std::uint8_t> clustered_elements(const NodeTree& tree, const NodeCut& cut);
+
 /// By ElementId: the share of its area that is there and on which nothing stands.
 std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
                                   const NodeCut& cut);
 
-/// Four to sixteen nodes on every side that has so many elements:
+/// Clusters of faces, and of other sides four to sixteen nodes on every one that has so many elements:
 /// one for each 1/1024 of all there is. Where something stands across one, its parts.
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
 

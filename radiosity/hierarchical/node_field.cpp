@@ -271,8 +271,8 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
   VertexSamples found = std::move(receivers.vertices);
   if (!facets.elements.empty())
-    average_facets(light, elements, facets, {how.form_factors, how.interpolation.mirrored},
-                   workspaces, found.field);
+    average_facets(light, elements, facets,
+                   {how.form_factors, receivers.clustered, how.interpolation.mirrored}, workspaces, found.field);
   InterpolatedField result =
       gathered_at_corners(light, elements, receivers, how, std::move(found), workspaces);
   count_rays(workspaces, result);

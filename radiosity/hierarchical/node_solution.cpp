@@ -356,10 +356,11 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
+  std::vector<std::uint8_t> clustered = clustered_elements(tree, cut);
   std::vector<TreeNodeId> receivers = with_faces_of_clusters(tree, cut.receivers);
   result.receivers = {
       std::move(tree),        std::move(receivers), settings.hierarchical.link_error,
-      std::move(lit.covered), std::move(lit.direct.shared), {}};
+      std::move(lit.covered), std::move(lit.direct.shared), std::move(clustered), {}};
   if (vertices) {
     result.rays_traced += vertices->rays;
     result.first.shadow_rays += vertices->shadow_rays;

@@ -155,17 +155,9 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
   const float chance = world == none<WorldId> ? 1.0F : largest(at.shares.reflected);
   if (choice_of(from, seed, 0xc0a7) >= chance)
     return std::nullopt;
-  return MirroredRay{at.position,
-                     mirrored(from, at, face),
-                     from.weight,
-                     from.throughput * at.shares.reflected / chance,
-                     world,
-                     from.medium,
-                     0.0,
-                     face.plane_class,
-                     from.number,
-                     from.meetings + 1,
-                     from.reflections + 1};
+  return MirroredRay{at.position, mirrored(from, at, face), from.weight,
+                     from.throughput * at.shares.reflected / chance, world, from.medium, 0.0,
+                     face.plane_class, from.number, from.meetings + 1, from.reflections + 1};
 }
 
 ElementHit& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
@@ -275,8 +267,7 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
 }
 
 /// Mirror after mirror, pane after pane, until no ray goes on.
-void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
-                    GatherWorkspace& work) {
+void follow_mirrors(const LightScene& light, const FormFactorSettings& settings, GatherWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
   while (!work.next.empty()) {

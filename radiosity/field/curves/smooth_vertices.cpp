@@ -5,9 +5,36 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 
 namespace meninas {
+
+/// Spreads the rest of light from cluster to cluster.
+static void smooth_over_clusters(const ElementMesh& mesh, const VertexElements& facets,
+                                 const ElementLight& elements, std::span<const std::uint8_t> clustered,
+                                 std::vector<Rgb>& rest) {
+  constexpr int rings = 4; // a cluster of 32 faces is some six across
+  if (std::ranges::find(clustered, 1) == clustered.end())
+    return;
+  std::vector<glm::vec3> at_vertices(mesh.vertices.size());
+  for (int ring = 0; ring < rings; ++ring) {
+    tbb::parallel_for(std::size_t{0}, at_vertices.size(), [&](std::size_t v) {
+      at_vertices[v] = facet_mean(mesh, around(facets, v), elements.irradiance, rest);
+    });
+    // A facet keeps what it has where its corners are no part of a curve.
+    tbb::parallel_for(std::size_t{0}, clustered.size(), [&](std::size_t e) {
+      const ElementCorners& corners = mesh.corners[e];
+      if (clustered[e] == 0 || elements.irradiance[e] == Rgb(0.0) ||
+          !std::ranges::all_of(corners, [&](ElementVertexId v) { return is_averaged(facets, index(v)); }))
+        return;
+      Rgb sum(0.0);
+      for (const ElementVertexId v : corners)
+        sum += Rgb(at_vertices[index(v)]);
+      rest[e] = sum / 4.0;
+    });
+  }
+}
 
 /// Of each facet's direct light, and of the rest, what comes by way of mirrors:
 /// in the share that a few rays find at its middle.
@@ -40,11 +67,13 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
 
 /// The same means of what one lamp sends.
 static void average_lamp(const ElementMesh& mesh, const ElementLight& elements,
-                         const VertexElements& facets, std::size_t lamp, VertexLightOfLamp& light) {
+                         const VertexElements& facets, std::span<const std::uint8_t> clustered,
+                         std::size_t lamp, VertexLightOfLamp& light) {
   const std::vector<Rgb> direct = light_of_lamp(elements.from_source_by_lamp, lamp);
   std::vector<Rgb> rest = light_of_lamp(elements.irradiance_by_lamp, lamp);
   for (std::size_t e = 0; e < rest.size(); ++e)
     rest[e] -= direct[e];
+  smooth_over_clusters(mesh, facets, elements, clustered, rest);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (const auto own = around(facets, v); !own.empty()) {
       light.direct[v] = facet_mean(mesh, own, elements.irradiance, direct);
@@ -60,6 +89,7 @@ void average_facets(const LightScene& light, const ElementLight& elements,
   std::array<std::vector<Rgb>, 2> parts{elements.from_source, elements.irradiance}, mirrored;
   for (std::size_t e = 0; e < element_count(mesh); ++e)
     parts[1][e] -= parts[0][e];
+  smooth_over_clusters(mesh, facets, elements, how.clustered, parts[1]);
   if (how.mirrored && (!light.mirrors.mirrors.empty() || light.mirrors.facets > 0)) {
     const PointGathering gathering(light, elements.reflected, how.form_factors,
                                    {.shadow_rays = 4, .penumbra_rays = 4},
@@ -67,7 +97,7 @@ void average_facets(const LightScene& light, const ElementLight& elements,
     mirrored = mirrored_parts(light, averaged_facets(mesh, facets), parts, gathering, workspaces);
   }
   for (std::size_t l = 0; l < field.by_lamp.size(); ++l)
-    average_lamp(mesh, elements, facets, l, field.by_lamp[l]);
+    average_lamp(mesh, elements, facets, how.clustered, l, field.by_lamp[l]);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto own = around(facets, v);
     if (own.empty())

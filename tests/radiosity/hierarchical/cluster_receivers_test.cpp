@@ -1,5 +1,6 @@
 // Clusters of faces as receivers: their rows against closed forms, and what is solved by them against rows of all faces.
 #include "form_factors/point_form_factor.h"
+#include "mirror/convex_polygon.h"
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/hierarchical/node_cut.h"
 #include "tests/radiosity/solved.h"
@@ -50,8 +51,10 @@ TEST(ClusterReceivers, RowsAreMeansOverFaces) {
     EXPECT_NEAR(all, 1.0, 1e-5) << "a ball sees nothing but the room";
     for (const ElementId e : elements_below(tree, cut.receivers[r])) {
       const MeshSide& side = l->mesh.sides[index(l->mesh.side_of_element[index(e)])];
-      exact += l->mesh.area[index(e)] *
-               point_form_factor(centre_of(l->mesh, e), side.normal, ceiling);
+      const Point3 x = centre_of(l->mesh, e);
+      const ConvexPolygon above = clip(ConvexPolygon(ceiling), x, side.normal);
+      if (!above.empty())
+        exact += l->mesh.area[index(e)] * point_form_factor(x, side.normal, above.span());
       area += l->mesh.area[index(e)];
     }
     exact /= area;
