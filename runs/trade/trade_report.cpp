@@ -126,10 +126,6 @@ Json json_of(const TradeResult& result) {
           {"version", program_version()}};
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 } // namespace
 
 std::vector<KnobWorth> knob_worths(const TradeResult& result) {
