@@ -97,7 +97,6 @@ endfunction()
 # Nothing but the precompiled headers: meninas_headers, meninas_headers_quick. A library needs a source, if an empty one.
 function(meninas_precompile name)
   file(CONFIGURE OUTPUT headers.cpp CONTENT "// no code: ProjectOptions.cmake\n")
-  set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/headers.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
   target_link_libraries(${name} PRIVATE meninas_options glm::glm fmt::fmt TBB::tbb)
   target_precompile_headers(${name} PRIVATE ${MENINAS_COMMON_HEADERS})
