@@ -101,11 +101,11 @@ IrradianceField relit(const IrradianceField& field, std::span<const Rgb> factors
   }
   const auto both = std::make_shared<const RelitScene>(*field.scene, factors);
   result.scene = {both, &both->light};
-  const bool alike = std::ranges::all_of(factors, [&](const Rgb& f) { return f == factors[0]; });
+  const bool one_factor = std::ranges::all_of(factors, [&](const Rgb& f) { return f == factors[0]; });
   result.irradiance.assign(field.irradiance.size(), glm::vec3(0.0F));
   result.indirect = result.irradiance;
   for (std::size_t v = 0; v < result.irradiance.size(); ++v) {
-    if (alike) {
+    if (one_factor) {
       result.irradiance[v] = glm::vec3(factors[0]) * field.irradiance[v];
       result.indirect[v] = glm::vec3(factors[0]) * field.indirect[v];
       continue;

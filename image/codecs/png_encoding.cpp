@@ -74,7 +74,7 @@ void append(png_structp png, png_bytep bytes, std::size_t count) {
   written.png.insert(written.png.end(), first, first + count);
 }
 
-[[noreturn]] void fail(png_structp png, png_const_charp reason) {
+[[noreturn]] void fail_png(png_structp png, png_const_charp reason) {
   static_cast<Written*>(png_get_error_ptr(png))->error = reason;
   png_longjmp(png, 1);
 }
@@ -109,7 +109,7 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const std::ui
     big_endian.push_back(static_cast<png_byte>(code & 0xff));
   }
   Written written;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &written, fail, ignore);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &written, fail_png, ignore);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   bool is_whole = false;
   if (info != nullptr) {

@@ -12,7 +12,7 @@ namespace meninas {
 namespace {
 
 /// Every mirror has its worlds here: they are entered only as far as they matter.
-constexpr MirrorSettings all_mirrors{.max_mirrors = 1 << 20, .smallest_share = 0.0};
+constexpr MirrorSettings every_mirror{.max_mirrors = 1 << 20, .smallest_share = 0.0};
 
 std::vector<std::uint8_t> marked(const Scene& scene, const NodeSet& nodes) {
   std::vector<std::uint8_t> mark(scene.nodes.size(), 0);
@@ -77,7 +77,7 @@ NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, 
   const std::vector<Face> faces = joined_faces(surfaces);
   const Senders candidates = scattering_faces(scene, faces, from);
   NodeFactors result;
-  result.mirrors = find_mirrors(scene, surfaces, all_mirrors);
+  result.mirrors = find_mirrors(scene, surfaces, every_mirror);
   WorldView view{result.mirrors, faces, {}, {}, surfaces.tolerance};
   add_targets(scene, to, settings.sides, view);
   CountedSides counted = counted_sides(

@@ -42,13 +42,13 @@ void add_accessors(const Json& primitive, std::set<std::size_t>& accessors) {
 
 /// Calls visit(number) for every `bufferView` below: glTF and its extensions name views so.
 template <typename Value, typename Visit>
-void each_view(Value& json, Visit visit) {
-  if (!json.is_structured())
+void each_view(Value& item, Visit visit) {
+  if (!item.is_structured())
     return;
-  for (auto& [key, value] : json.items()) {
-    if (json.is_object() && key == "extras")
+  for (auto& [key, value] : item.items()) {
+    if (item.is_object() && key == "extras")
       continue;
-    if (json.is_object() && key == "bufferView" && value.is_number())
+    if (item.is_object() && key == "bufferView" && value.is_number())
       visit(value);
     else
       each_view(value, visit);
@@ -156,13 +156,13 @@ std::size_t DocumentEdit::gathered(std::size_t accessor, std::span<const std::ui
   for (std::size_t k = 0; k < elements.size(); ++k)
     std::memcpy(bytes.data() + k * stride, stored.bytes.data() + elements[k] * stored.size(),
                 stored.size());
-  Json json = gltf::element(file_.root, "accessors", accessor);
+  Json item = gltf::element(file_.root, "accessors", accessor);
   for (const char* key : {"byteOffset", "sparse"})
-    json.erase(key);
-  json["bufferView"] = add_view(std::move(bytes), stride, array_buffer);
-  json["count"] = elements.size();
-  restate_bounds(json, stored, elements);
-  return put(accessor, std::move(json));
+    item.erase(key);
+  item["bufferView"] = add_view(std::move(bytes), stride, array_buffer);
+  item["count"] = elements.size();
+  restate_bounds(item, stored, elements);
+  return put(accessor, std::move(item));
 }
 
 std::size_t DocumentEdit::put(std::optional<std::size_t> instead, Json accessor) {
@@ -217,8 +217,8 @@ void DocumentEdit::use_extension(const std::string& name) {
 }
 
 std::span<const unsigned char> DocumentEdit::bytes_of_view(std::size_t view) const {
-  const Json& json = root_["bufferViews"][view];
-  const std::size_t buffer = gltf::size_value(json["buffer"]);
+  const Json& item = root_["bufferViews"][view];
+  const std::size_t buffer = gltf::size_value(item["buffer"]);
   if (buffer >= file_.buffers.size())
     return added_[buffer - file_.buffers.size()];
   return gltf::view_bytes(file_, view);
@@ -270,14 +270,14 @@ std::vector<std::byte> DocumentEdit::finish(std::vector<std::string>& warnings) 
   for (const std::size_t view : used) {
     const auto bytes = bytes_of_view(view);
     binary.resize((binary.size() + 3) / 4 * 4);
-    Json json = root_["bufferViews"][view];
-    json["buffer"] = 0;
-    json["byteOffset"] = binary.size();
-    json["byteLength"] = bytes.size();
+    Json item = root_["bufferViews"][view];
+    item["buffer"] = 0;
+    item["byteOffset"] = binary.size();
+    item["byteLength"] = bytes.size();
     const auto first = reinterpret_cast<const std::byte*>(bytes.data());
     binary.insert(binary.end(), first, first + bytes.size());
     number[view] = views.size();
-    views.push_back(std::move(json));
+    views.push_back(std::move(item));
   }
   each_view(root_, [&](Json& view) { view = number.at(gltf::size_value(view)); });
   root_["bufferViews"] = std::move(views);

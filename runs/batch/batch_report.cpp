@@ -103,10 +103,6 @@ Json report_json(const BatchReport& report) {
   return json;
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 } // namespace
 
 BatchCounts count(std::span<const PictureResult> results) {

@@ -91,7 +91,7 @@ std::string value_of(const Attributes& attributes, std::string_view key) {
 
 /// Whole and finite, or nothing.
 template <typename Number>
-std::optional<Number> number_in(std::string_view text) {
+std::optional<Number> finite_in(std::string_view text) {
   Number number{};
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -106,8 +106,8 @@ std::optional<Number> number_in(std::string_view text) {
 
 PicturePart part_in(const fs::path& file, const std::string& text) {
   const auto slash = std::min(text.find('/'), text.size());
-  const auto number = number_in<int>(std::string_view(text).substr(0, slash));
-  const auto count = number_in<int>(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  const auto number = finite_in<int>(std::string_view(text).substr(0, slash));
+  const auto count = finite_in<int>(std::string_view(text).substr(std::min(slash + 1, text.size())));
   if (!number || !count || *number < 1 || *number > *count)
     refuse(file, "is no part of a picture made by 'meninas render --tile'");
   return {*number - 1, *count};
@@ -141,7 +141,7 @@ void take_edges(const fs::path& file, TileFile& tile) {
   tile.knows_edges = !list.empty();
   for (std::size_t begin = 0; tile.knows_edges && begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
-    const auto exposure = number_in<double>(std::string_view(list).substr(begin, end - begin));
+    const auto exposure = finite_in<double>(std::string_view(list).substr(begin, end - begin));
     if (!is_exposure(exposure))
       refuse(file, "damaged: its exposures are no numbers of stops");
     const std::string name = fmt::format("{}{}", edges_prefix, tile.edges.size());
@@ -192,7 +192,7 @@ TileFile read_tile(const fs::path& file) {
   tile.layers = std::move(stored.layers);
   tile.attributes = std::move(stored.attributes);
   const std::string exposure = value_of(tile.attributes, "tileExposure");
-  tile.exposure = number_in<double>(exposure);
+  tile.exposure = finite_in<double>(exposure);
   if (!exposure.empty() && !is_exposure(tile.exposure))
     refuse(file, "damaged: its exposure is no number of stops");
   const std::string transform = value_of(tile.attributes, "tileTransform");

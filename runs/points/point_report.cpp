@@ -23,7 +23,7 @@ Json point_json(const MeasuredSet& measured, std::size_t k) {
   const double efficacy = measured.luminous_efficacy;
   const QueryPoint& point = measured.set.points[k];
   const PointIrradiance& light = measured.light[k];
-  Json json{{"position", xyz(point.position)},
+  Json object{{"position", xyz(point.position)},
           {"normal", xyz(point.normal)},
           {"illuminance", luminous(efficacy, light.total)},
           {"illuminance_direct", luminous(efficacy, light.direct)},
@@ -32,8 +32,8 @@ Json point_json(const MeasuredSet& measured, std::size_t k) {
           {"irradiance_direct", rgb(light.direct)},
           {"irradiance_by_mirrors", rgb(light.by_mirrors)}};
   for (std::size_t l = 0; l < measured.lamps.size(); ++l)
-    json["illuminance_by_lamp"][measured.lamps[l]] = luminous(efficacy, light.by_lamp[l]);
-  return json;
+    object["illuminance_by_lamp"][measured.lamps[l]] = luminous(efficacy, light.by_lamp[l]);
+  return object;
 }
 
 Json set_json(const MeasuredSet& measured) {
@@ -42,21 +42,21 @@ Json set_json(const MeasuredSet& measured) {
     points.push_back(point_json(measured, k));
   const std::vector<double> lux = illuminances(measured);
   const GridSummary summary = summary_of(lux);
-  Json json{{"name", measured.set.name}};
+  Json object{{"name", measured.set.name}};
   if (const auto& grid = measured.set.grid) {
-    json["node"] = grid->node;
-    json["length"] = grid->length;
-    json["width"] = grid->width;
-    json["points_along"] = grid->along;
-    json["points_across"] = grid->across;
-    json["points_inside"] = measured.inside;
+    object["node"] = grid->node;
+    object["length"] = grid->length;
+    object["width"] = grid->width;
+    object["points_along"] = grid->along;
+    object["points_across"] = grid->across;
+    object["points_inside"] = measured.inside;
   }
-  json["minimum"] = summary.minimum;
-  json["mean"] = summary.mean;
-  json["maximum"] = summary.maximum;
-  json["uniformity"] = summary.uniformity;
-  json["points"] = std::move(points);
-  return json;
+  object["minimum"] = summary.minimum;
+  object["mean"] = summary.mean;
+  object["maximum"] = summary.maximum;
+  object["uniformity"] = summary.uniformity;
+  object["points"] = std::move(points);
+  return object;
 }
 
 bool is_lit(const MeasuredSet& measured) {
@@ -142,10 +142,10 @@ std::string points_json(std::span<const MeasuredSet> sets) {
   units["uniformity"] = "1";
   for (const char* key : {"irradiance", "irradiance_direct", "irradiance_by_mirrors"})
     units[key] = "W/m^2";
-  const Json json{{"units", std::move(units)},
+  const Json object{{"units", std::move(units)},
                   {"luminous_efficacy", sets.empty() ? 0.0 : sets.front().luminous_efficacy},
                   {"sets", std::move(list)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string summary_line(const MeasuredSet& measured) {

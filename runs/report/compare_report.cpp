@@ -131,10 +131,6 @@ Json settings_json(const Comparison& comparison) {
   return settings;
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 /// What figures and page have in common.
 Json header_json(const Comparison& comparison) {
   const Image& picture = comparison.modes.front().image;

@@ -3,6 +3,8 @@
 #include "image/image_file.h"
 #include "scenes/types.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 
 namespace meninas {
@@ -22,6 +24,10 @@ std::string fill_page(std::string_view page, std::string_view json) {
   }
   filled += page.substr(at + place.size());
   return filled;
+}
+
+std::string text_of(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string shell_quoted(const std::string& text) {

@@ -4,6 +4,8 @@
 
 #include "image/image_file.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstddef>
 #include <span>
 #include <string>
@@ -15,6 +17,9 @@ namespace meninas {
 /// written so that no text in it can end the script element it stands in.
 /// Precondition: the template has that place.
 std::string fill_page(std::string_view page, std::string_view json);
+
+/// JSON with what is not UTF-8 replaced, on one line for an indent of -1.
+std::string text_of(const nlohmann::ordered_json& json, int indent);
 
 /// A word of a command, in single quotes where a shell would take it apart.
 std::string shell_quoted(const std::string& text);

@@ -126,10 +126,6 @@ Json json_of(const TradeResult& result) {
           {"version", program_version()}};
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 } // namespace
 
 std::vector<KnobWorth> knob_worths(const TradeResult& result) {
@@ -155,9 +151,9 @@ std::string trade_csv(const TradeResult& result) {
   const Json json = json_of(result);
   for (const Json& point : json["points"]) {
     std::string line;
-    for (const char* key :
+    for (const char* column :
          {"id", "front", "seconds", "processor_seconds", "error", "estimate", "runs", "elements"})
-      line += point[key].dump() + ',';
+      line += point[column].dump() + ',';
     text += line + csv_field(point["command"].get<std::string>()) + '\n';
   }
   return text;

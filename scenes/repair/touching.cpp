@@ -34,7 +34,7 @@ Plane turned(const Plane& plane, double sign) {
 
 // --- Faces
 
-struct Box {
+struct TriangleBox {
   Bounds bounds;
   TriangleId triangle = none<TriangleId>;
 };
@@ -48,26 +48,26 @@ public:
   /// Puts the faces of materials that `moves` before those of materials that `stays`.
   void separate(Test moves, Test stays, std::set<NodeId>& moved) {
     constexpr double far = std::numeric_limits<double>::infinity();
-    const std::vector<Box> movers = boxes_of(moves, {Point3(-far), Point3(far)});
+    const std::vector<TriangleBox> movers = boxes_of(moves, {Point3(-far), Point3(far)});
     if (movers.empty())
       return;
     Bounds around;
-    for (const Box& box : movers) {
+    for (const TriangleBox& box : movers) {
       around.low = glm::min(around.low, box.bounds.low - touch_);
       around.high = glm::max(around.high, box.bounds.high + touch_);
     }
-    const std::vector<Box> fixed = boxes_of(stays, around);
+    const std::vector<TriangleBox> fixed = boxes_of(stays, around);
     if (fixed.empty())
       return;
-    for (const Box& box : movers)
+    for (const TriangleBox& box : movers)
       for (const VertexId v : scene_.triangles[index(box.triangle)].vertices)
         bodies_[body_of(box.triangle)].vertices.push_back(v);
     std::vector<double> farthest; // of those up to here along x
-    for (const Box& box : fixed)
+    for (const TriangleBox& box : fixed)
       farthest.push_back(
           std::max(farthest.empty() ? box.bounds.high.x : farthest.back(), box.bounds.high.x));
     std::size_t tried = 0;
-    for (const Box& mover : movers) {
+    for (const TriangleBox& mover : movers) {
       const auto first = std::ranges::lower_bound(farthest, mover.bounds.low.x - touch_);
       for (auto k = static_cast<std::size_t>(first - farthest.begin());
            k < fixed.size() && fixed[k].bounds.low.x <= mover.bounds.high.x + touch_ &&
@@ -88,12 +88,12 @@ private:
   using Bodies = std::map<BodyName, Body>;
 
   /// Those of a kind that are near the bounds, from the lowest along x on.
-  std::vector<Box> boxes_of(Test of_kind, const Bounds& around) const {
-    std::vector<Box> boxes;
+  std::vector<TriangleBox> boxes_of(Test of_kind, const Bounds& around) const {
+    std::vector<TriangleBox> boxes;
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
       if (!of_kind(material_of(scene_, TriangleId{t})))
         continue;
-      Box box{{}, TriangleId{t}};
+      TriangleBox box{{}, TriangleId{t}};
       for (const Point3& corner : corners(scene_, TriangleId{t})) {
         box.bounds.low = glm::min(box.bounds.low, corner);
         box.bounds.high = glm::max(box.bounds.high, corner);
@@ -101,7 +101,7 @@ private:
       if (are_near(box.bounds, around))
         boxes.push_back(box);
     }
-    std::ranges::sort(boxes, [](const Box& a, const Box& b) {
+    std::ranges::sort(boxes, [](const TriangleBox& a, const TriangleBox& b) {
       return std::pair(a.bounds.low.x, a.triangle) < std::pair(b.bounds.low.x, b.triangle);
     });
     return boxes;
