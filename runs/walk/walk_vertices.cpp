@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <unordered_set>
 
 namespace meninas {
@@ -19,6 +20,7 @@ struct VertexTable {
   std::string name;
   std::size_t columns = 1;
   std::vector<std::uint32_t> values = {};
+  std::optional<std::uint32_t> usual = {}; ///< a table with this everywhere is left out
 
   std::span<const std::uint32_t> row(std::uint32_t v) const {
     return std::span(values).subspan(v * columns, columns);
@@ -46,7 +48,9 @@ double position_step(const WalkRoom& room) {
 /// Where the vertices are, and what they are made of.
 std::vector<VertexTable> tables_without_light(const WalkRoom& room, double step) {
   constexpr double texture_step = 0x1p-16, colour_step = 1.0 / 65535.0;
-  VertexTable position{"position", 3}, normal{"normal", 2}, place{"place", 4}, colour{"colour", 4}, look{"look"};
+  constexpr std::uint32_t white = 65535;
+  VertexTable position{"position", 3}, normal{"normal", 2, {}, 0U}, place{"place", 4, {}, 0U},
+      colour{"colour", 4, {}, white}, look{"look"};
   for (const WalkVertex& v : room.vertices) {
     for (int k = 0; k < 3; ++k)
       position.values.push_back(in_steps(double{v.position[k]}, step));
@@ -122,6 +126,8 @@ PageVertices page_vertices(const WalkRoom& room, std::size_t lamps, VertexNumber
 
   const KeptVertices kept = numbering == VertexNumbering::joined ? joined_vertices(room, tables) : all_vertices(room);
   for (const VertexTable& table : tables) {
+    if (table.usual && std::ranges::all_of(table.values, [&](std::uint32_t x) { return x == *table.usual; }))
+      continue;
     std::vector<std::uint32_t> rows;
     rows.reserve(table.columns * kept.vertices.size());
     for (const std::uint32_t v : kept.vertices)

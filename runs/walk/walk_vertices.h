@@ -2,9 +2,9 @@
 //
 //   position     from the middle of the scene, by the step of `PageVertices`
 //   irradiance   halves times a scale (walk_lamps.h): of the room, and of each lamp, "lamp0" and so on
-//   normal       on the octahedron (Meyer et al. 2010), two coordinates in 2^-14
-//   place        on the two textures, in 2^-16 of the image
-//   colour       by 1 / 65535
+//   normal       on the octahedron (Meyer et al. 2010), two coordinates in 2^-14; left out where no vertex has one
+//   place        on the two textures, in 2^-16 of the image; left out where all are 0
+//   colour       by 1 / 65535; left out where all are white
 //   look         which of the room's
 //   triangles    three vertices each;   elementEnds   those of the room
 //

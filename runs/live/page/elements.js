@@ -23,7 +23,7 @@ function splitElements(tables) {
     first = end;
   });
   Object.assign(tables, { bits: tables.irradiance, triangles: fresh, from: Uint32Array.from(from), elementOf: Uint32Array.from(elementOf) });
-  for (const [name, columns] of Object.entries(vertexTables)) tables[name] = atOwnVertices(tables, tables[name], columns);
+  for (const [name, columns] of Object.entries(vertexTables)) if (tables[name]) tables[name] = atOwnVertices(tables, tables[name], columns);
 }
 
 /// Numbers by vertex as they came, by the vertices of the elements apart.

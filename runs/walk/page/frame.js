@@ -9,8 +9,28 @@
 // surface blurs too, since it takes from beside its window.
 "use strict";
 
+/// The shaders of a page with such a room.
+const programsFor = (needs, transform) => [[roomVertex(needs), roomFragment(needs)], [wholeVertex, screenFragment(transform)]];
+
+/// A frame of a room of two triangles, which is not kept: what is behind the eye, in a mirror before it. Software that draws
+/// compiles programs when they first draw, in threads of its own: it goes on with that while the room is read.
+function paintNothing(gl, data) {
+  const mirror = [[-1, -1, -1], [1, -1, -1], [0, 1, -1]], back = [[1, -1, 1], [-1, -1, 1], [0, 1, 1]];
+  const bare = { ...data, step: 1, batches: [[sections.single, -1, -1, 0, -1, 0, 1], [sections.single, -1, -1, -1, -1, 1, 1]],
+    mirrors: data.mirrors.length ? [{ kind: "mirror", normal: [0, 0, 1], offset: -1, reflectance: 1, windows: [mirror] }] : [],
+    looks: [{ ...data.looks[0], kind: kinds.plain, roughness: 0, lamp: -1 }], lamps: [], skyLamp: -1, sky: null };
+  const tables = { position: Int32Array.from([mirror, back].flat(2)), irradiance: new Uint16Array(18), look: new Int32Array(6), triangles: Int32Array.of(0, 1, 2, 3, 4, 5), elementEnds: [1, 2] };
+  for (const name of ["place", "colour"]) if (data.tables.some(table => table.name === name)) tables[name] = new Int32Array(24);
+  const room = Object.assign(readRoom(bare, tables), { needs: needsOf(data) }), painter = makePainter(gl, bare, room, []);
+  painter.paint({ eye: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1], half: 2, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size },
+    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, most: 2, exposure: 0 });
+  gl.clear(gl.COLOR_BUFFER_BIT);
+  gl.flush();
+  painter.free();
+}
+
 function makePainter(gl, data, room, textures) {
-  const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), screenProgram = makeProgram(gl, wholeVertex, screenFragment);
+  const [roomProgram, screenProgram] = makePrograms(gl, programsFor(room.needs, data.transform));
   const { array, light, stream, buffers } = makeRoomArrays(gl, room, room.lamps.irradiance()), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
   const { probes, groups } = room, probePictures = makeProbes(gl, probes.length); // its own, when another room is shown
@@ -267,8 +287,7 @@ function makePainter(gl, data, room, textures) {
     bind(0, targets[0].texture);
     gl.uniform1i(screenProgram.at.picture, 0);
     gl.uniform1i(screenProgram.at.block, block);
-    gl.uniform1i(screenProgram.at.transform,
-      options.falseColours ? 0 : ["srgb", "neutral", "agx"].indexOf(data.transform));
+    gl.uniform1i(screenProgram.at.asItIs, options.falseColours);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 

@@ -11,31 +11,34 @@ function openGpu(canvas) {
   return gl;
 }
 
-/// Compiled once: it takes as long as drawing many frames where software draws.
-function makeProgram(gl, vertex, fragment) {
-  const known = gl.programs = gl.programs || new Map(), text = vertex + fragment;
-  if (!known.has(text)) known.set(text, compiledProgram(gl, vertex, fragment));
-  return known.get(text);
+/// Compiled once: it takes as long as drawing many frames where software draws. All are begun before one is asked for.
+function makePrograms(gl, texts) {
+  const known = gl.programs = gl.programs || new Map();
+  for (const text of texts) if (!known.has(text.join(""))) known.set(text.join(""), beginProgram(gl, text));
+  const programs = texts.map(text => known.get(text.join("")));
+  for (const made of programs) made.at = made.at || placesOfUniforms(gl, made);
+  return programs;
 }
-function compiledProgram(gl, vertex, fragment) {
-  const program = gl.createProgram();
-  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+function beginProgram(gl, [vertex, fragment]) {
+  const program = gl.createProgram(), shaders = [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]].map(([kind, source]) => {
     const shader = gl.createShader(kind);
-    gl.shaderSource(shader, text);
+    gl.shaderSource(shader, source);
     gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
-      throw new Error("A shader of this page was refused: " + gl.getShaderInfoLog(shader));
     gl.attachShader(program, shader);
-  }
+    return shader;
+  });
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS))
-    throw new Error("A shader of this page was refused: " + gl.getProgramInfoLog(program));
+  return { program, shaders, at: null };
+}
+function placesOfUniforms(gl, { program, shaders }) {
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+    throw new Error("A shader of this page was refused: " + [...shaders.map(shader => gl.getShaderInfoLog(shader)), gl.getProgramInfoLog(program)].join(" "));
   const at = {};
   for (let k = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); k-- > 0;) {
     const { name } = gl.getActiveUniform(program, k);
     at[name] = gl.getUniformLocation(program, name);
   }
-  return { program, at };
+  return at;
 }
 
 function makeBuffer(gl, target, values) {
@@ -50,17 +53,23 @@ function numbersOf({ data, tables, probes, mirrors }) {
   const numbers = new Uint16Array(4 * tables.look.length), isMirror = new Set(mirrors.map(mirror => mirror.number));
   for (const batch of data.batches) {
     const [, , , mirror, node, first, count] = batch, { units } = batch.group;
-    const row = [isMirror.has(mirror) ? mirror + 1 : 0, probes.findIndex(probe => probe.node === node) + 1,
-      units.indexOf(batch[1]) + 1, units.indexOf(batch[2]) + 1];
-    for (let k = 3 * first; k < 3 * (first + count); ++k) numbers.set(row, 4 * tables.triangles[k]);
+    const ofMirror = isMirror.has(mirror) ? mirror + 1 : 0, ofBody = probes.findIndex(probe => probe.node === node) + 1;
+    const [ofColour, ofEmission] = [units.indexOf(batch[1]) + 1, units.indexOf(batch[2]) + 1];
+    for (let k = 3 * first; k < 3 * (first + count); ++k) {
+      const row = 4 * tables.triangles[k];
+      numbers[row] = ofMirror;
+      numbers[row + 1] = ofBody;
+      numbers[row + 2] = ofColour;
+      numbers[row + 3] = ofEmission;
+    }
   }
   return numbers;
 }
 
 /// By vertex, on the octahedron: those of bodies, and of black backs.
 function normalsOf({ tables, backs }, places) {
-  const normals = new Float32Array(2 * places.sky);
-  normals.set(Float32Array.from(tables.normal, x => x / 16384));
+  const normals = new Float32Array(2 * places.sky), known = tables.normal || [];
+  for (let k = 0; k < known.length; ++k) normals[k] = known[k] / 16384;
   normals.set(backs.normals, 2 * places.back);
   return normals;
 }
@@ -81,16 +90,17 @@ function makeRoomArrays(gl, room, irradiance) {
   };
   const points = new Float32Array(3 * places.window);
   points.set(tables.points);
-  room.backs.of.forEach((v, k) => { for (let axis = 0; axis < 3; ++axis) points[3 * (places.back + k) + axis] = tables.points[3 * v + axis]; });
+  for (let k = 0, to = 3 * places.back; k < room.backs.of.length; ++k)
+    for (let axis = 0, from = 3 * room.backs.of[k]; axis < 3; ++axis) points[to++] = tables.points[from++];
   points.set(cubeCorners.flatMap(x => times(x, room.size)), 3 * places.sky);
   const looks = new Uint16Array(places.all);
   looks.set(tables.look);
   looks.fill(looksBeside.back, places.back).fill(looksBeside.sky, places.sky).fill(looksBeside.window, places.window);
   const positions = add(0, points, 3, gl.FLOAT), light = add(1, irradiance, 3, gl.FLOAT);
   add(2, normalsOf(room, places), 2, gl.FLOAT);
-  if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT);
-  if (tables.colour.some(x => x !== 65535)) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
-  else gl.vertexAttrib4f(4, 1, 1, 1, 1);
+  if (tables.place) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT);
+  else gl.vertexAttrib4f(3, 0, 0, 0, 0);
+  if (tables.colour) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
   add(5, looks, 1, gl.UNSIGNED_SHORT);
   add(6, numbersOf(room), 4, gl.UNSIGNED_SHORT);
   const stream = makeStream(gl, room, positions);
@@ -148,7 +158,7 @@ function makeScale(gl, colours) {
 
 async function halvesOf(base64) {
   const bytes = await inflated(bytesOf(base64));
-  return Float32Array.from(new Uint16Array(bytes.buffer, 0, bytes.length / 2), halfToNumber);
+  return halvesToNumbers(new Uint16Array(bytes.buffer, 0, bytes.length / 2));
 }
 
 /// Its texture is made by setSky.

@@ -6,7 +6,7 @@
 "use strict";
 
 /// The numbers of halves 0 to 65504, by their bits.
-const halfNumbers = Float32Array.from({ length: 31 << 10 }, (_, bits) => halfToNumber(bits));
+const halfNumbers = halvesToNumbers(new Uint16Array(31 << 10).map((_, bits) => bits));
 
 /// sum + factor times the light of a lamp, in place; `scale` is W/m^2 of a unit of the sum.
 function addLamp(sum, { halves, light }, factor, scale) {
@@ -31,7 +31,7 @@ function makeLamps(data, tables) {
     halves: tables["lamp" + number] }));
   data.lamps.forEach((_, number) => { delete tables["lamp" + number]; });
   for (const look of data.looks) look.whole = look.emission;
-  const length = tables.irradiance.length, allOfThem = Float32Array.from(tables.irradiance, halfToNumber);
+  const length = tables.irradiance.length, allOfThem = halvesToNumbers(tables.irradiance);
   const apart = lamps.length ? new Float32Array(length) : null;
   let alone = null, others = null, sum = allOfThem, shown = lamps.map(() => [1, 1, 1]);
 

@@ -26,7 +26,9 @@ async function readShown(gl, data, change) {
 ///   redraw()       after a change of something beside the camera
 /// `told.tables` may change the tables of a room before it is shown.
 async function openPage(data, told = {}) {
-  const canvas = element("view"), gl = openGpu(canvas), { room, textures } = await readShown(gl, data, told.tables);
+  const canvas = element("view"), gl = openGpu(canvas);
+  paintNothing(gl, data);
+  const { room, textures } = await readShown(gl, data, told.tables);
   let painter = makePainter(gl, data, room, textures);
   const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
@@ -87,6 +89,7 @@ async function openPage(data, told = {}) {
     }
     // Then for what curved and rough bodies show.
     if (!moving && painter.fillNextProbe()) setTimeout(() => askForFrame(false), 0);
+    document.body.classList.add("shown");
     panel.figures(figures);
     dimmers.show();
     panel.show({ ...shows, instead: Boolean(room.instead), mode: motion.state.mode, exposure: motion.state.exposure });

@@ -21,9 +21,8 @@ function findProbes(room) {
   }
   const probes = [...bodies.values()].sort((a, b) => b.count - a.count).slice(0, mostProbes);
   for (const probe of probes) {
-    const points = probe.runs.flatMap(run => [...room.tables.triangles.subarray(3 * run.first, 3 * (run.first + run.count))]
-      .flatMap(v => [...room.tables.points.subarray(3 * v, 3 * v + 3)]));
-    const { low, high } = boundsOf(points);
+    const boxes = probe.runs.map(run => boxOf(room.tables, run)), outermost = (most, end) => [0, 1, 2].map(axis => most(...boxes.map(box => box[end][axis])));
+    const low = outermost(Math.min, "low"), high = outermost(Math.max, "high");
     probe.place = times(plus(low, high), 0.5);
     probe.thickness = Math.min(...minus(high, low));
   }

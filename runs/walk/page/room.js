@@ -13,8 +13,8 @@ function joinedRuns(data, tables, batches) {
     if (last && section !== sections.pane && last.section === section && last.colour === colour
       && last.emission === emission && last.node === body && last.first + last.count === first) {
       last.count += count;
-      last.parts.push(batch.part);
-    } else runs.push({ section, group: batch.group, colour, emission, first, count, node: body, parts: [batch.part],
+      last.parts.push(...batch.parts);
+    } else runs.push({ section, group: batch.group, colour, emission, first, count, node: body, parts: [...batch.parts],
       mirror: section === sections.pane ? mirror : -1 });
   }
   return runs;
@@ -44,18 +44,40 @@ function sheetsOf(data) {
   return { colours: units(1, () => true), emissions: units(2, () => true), holes: units(1, batch => batch[0] !== sections.single && data.looks.some(look => look.cutoff >= 0)) };
 }
 
+/// Triangles that are next to one another in the file are next to one another in the room: so many of a batch are left out
+/// together where their box is not seen. A pane is one part: it is drawn in its turn.
+const leastOfPart = 512, mostParts = 1024;
+function partsOf(tables, [section, , , , , first, count], margin) {
+  const step = section === sections.pane ? count : Math.max(leastOfPart, Math.ceil(tables.triangles.length / 3 / mostParts)), parts = [];
+  for (let from = first; from < first + count; from += step) {
+    const part = { first: from, count: Math.min(step, first + count - from) };
+    parts.push({ ...part, ...boxOf(tables, part, margin) });
+  }
+  return parts;
+}
+
+/// What a page's shader has to have: only that is compiled. It is known before the tables are read.
+function needsOf(data) {
+  const { looks, batches } = data, groups = groupSheets(batches), has = name => data.tables.some(table => table.name === name);
+  return { groups, bodies: looks.some(isBody), rough: looks.some(({ kind, roughness }) => (kind === kinds.mirror || kind === kinds.coat) && roughness > leastRough),
+    panes: batches.some(batch => batch[0] === sections.pane), sky: Boolean(data.sky), colours: has("colour"), sheets: sheetsOf(data) };
+}
+
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
-/// The box around a batch, a little larger than it.
-function partOfBatch(tables, [, , , , , first, count], margin) {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (let k = 3 * first; k < 3 * (first + count); ++k)
-    for (let axis = 0; axis < 3; ++axis) {
-      const x = tables.points[3 * tables.triangles[k] + axis];
-      if (x - margin < low[axis]) low[axis] = x - margin;
-      if (x + margin > high[axis]) high[axis] = x + margin;
-    }
-  return { first, count, low, high };
+/// The box around triangles, so much larger than they are.
+function boxOf({ points, triangles }, { first, count }, margin = 0) {
+  let [a, b, c] = [Infinity, Infinity, Infinity], [d, e, f] = [-Infinity, -Infinity, -Infinity];
+  for (let k = 3 * first; k < 3 * (first + count); ++k) {
+    const v = 3 * triangles[k], x = points[v], y = points[v + 1], z = points[v + 2];
+    if (x < a) a = x;
+    if (y < b) b = y;
+    if (z < c) c = z;
+    if (x > d) d = x;
+    if (y > e) e = y;
+    if (z > f) f = z;
+  }
+  return { low: [a - margin, b - margin, c - margin], high: [d + margin, e + margin, f + margin] };
 }
 
 function middleOf(tables, run) {
@@ -76,12 +98,6 @@ function meanRadiance(data, tables, irradiance) {
     for (let k = 0; k < 3; ++k) sum[k] += irradiance[3 * v + k] * rho[k];
   }
   return times(sum, data.light / Math.PI / Math.max(1, count));
-}
-
-function boundsOf(points) {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  points.forEach((x, k) => { low[k % 3] = Math.min(low[k % 3], x); high[k % 3] = Math.max(high[k % 3], x); });
-  return { low, high };
 }
 
 /// The first so many triangles the other way round. Their vertices, `of` which of the room, have the normal of their
@@ -121,11 +137,12 @@ function makeBacks({ points, triangles }, count) {
 }
 
 function readRoom(data, tables) {
-  tables.points = Float32Array.from(tables.position, x => x * data.step);
-  const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
-  data.batches.forEach(batch => { batch.part = partOfBatch(tables, batch, margin); });
-  const groups = groupSheets(data.batches), runs = joinedRuns(data, tables, data.batches);
-  const room = { groups, data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
+  tables.points = new Float32Array(tables.position.length);
+  for (let k = 0; k < tables.points.length; ++k) tables.points[k] = tables.position[k] * data.step;
+  const { low, high } = boxOf(tables, { first: 0, count: tables.triangles.length / 3 }), margin = 1e-5 * lengthOf(minus(high, low));
+  data.batches.forEach(batch => { batch.parts = partsOf(tables, batch, margin); });
+  const needs = needsOf(data), runs = joinedRuns(data, tables, data.batches);
+  const room = { needs, groups: needs.groups, data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
   room.opaque = runs.filter(run => run.section !== sections.pane);
   room.panes = runs.filter(run => run.section === sections.pane);
   room.panes.forEach(run => {
@@ -139,8 +156,6 @@ function readRoom(data, tables) {
     .filter(mirror => mirror.runs.length && mirror.number < mostMirrors);
   // Only mirrors show what is black from behind.
   room.backs = makeBacks(tables, room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0);
-  room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0,
-    sky: Boolean(data.sky), sheets: sheetsOf(data) };
   return room;
 }
 

@@ -7,7 +7,16 @@ const looksBeside = { window: 65535, sky: 65534, back: 65533 };
 /// Mirrors beyond that many are not followed.
 const mostMirrors = 2048;
 
-const roomVertex = `#version 300 es
+/// Only what the room has is compiled and carried to its pixels: where the processor draws, compiling takes longer than a frame.
+const onlyWhatItHas = ({ bodies, rough, panes, colours, sheets }) => `#version 300 es
+#define BODIES ${Number(bodies)}
+#define ROUGH ${Number(rough)}
+#define PANES ${Number(panes)}
+#define COLOURS ${Number(colours)}
+#define SHEETS ${Number(sheets.colours.length + sheets.emissions.length > 0)}
+`;
+
+const roomVertex = needs => `${onlyWhatItHas(needs)}
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 irradiance;
 layout(location = 2) in vec2 octahedral;
@@ -20,22 +29,37 @@ uniform vec3 eye, pixelRight, pixelUp; // the sides of a pixel at distance one
 uniform float depthFactor; // depth is a constant less this by the distance along the view
 uniform uvec4 followed[${mostMirrors / 128}]; // a bit for each mirror with a picture of what it shows here
 invariant gl_Position;
-out vec3 place, light, normal;
-out vec4 onTextures, colour;
-flat out int look, body;
+out vec3 place, light;
+flat out int look, isFollowed;
+#if BODIES
+out vec3 normal;
+flat out int body;
+#endif
+#if COLOURS
+out vec4 colour;
+#endif
+#if SHEETS
+out vec4 onTextures;
 flat out ivec2 units;
-flat out int isFollowed;
+#endif
 void main() {
   place = position;
   light = irradiance; // of all lamps, each times its dimmer (lamps.js)
   vec3 n = vec3(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
   if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-  normal = normalize(n);
-  onTextures = texturePlace;
-  colour = vertexColour;
+  n = normalize(n);
   look = int(lookNumber);
+#if BODIES
+  normal = n;
   body = int(numbers.y) - 1;
+#endif
+#if COLOURS
+  colour = vertexColour;
+#endif
+#if SHEETS
+  onTextures = texturePlace;
   units = ivec2(numbers.zw) - 1;
+#endif
   uint mirror = numbers.x - 1u;
   isFollowed = numbers.x > 0u && numbers.x <= ${mostMirrors}u && (followed[mirror >> 7u][(mirror >> 5u) & 3u] >> (mirror & 31u) & 1u) != 0u ? 1 : 0;
   if (look == ${looksBeside.sky}) place += eye;
@@ -44,7 +68,7 @@ void main() {
   // Behind a front in the same place, by as much as their depth changes within two pixels: elements that share an edge may
   // have vertices at different places of it.
   if (look == ${looksBeside.back}) {
-    float slope = max(abs(dot(normal, pixelRight)), abs(dot(normal, pixelUp))) * depthFactor / max(abs(dot(normal, place - eye)), 1e-12);
+    float slope = max(abs(dot(n, pixelRight)), abs(dot(n, pixelUp))) * depthFactor / max(abs(dot(n, place - eye)), 1e-12);
     gl_Position.z = min(gl_Position.z + (2e-6 + 2.0 * slope) * gl_Position.w, gl_Position.w);
   }
   if (look == ${looksBeside.window}) gl_Position = vec4(position.xy, 1.0, 1.0);
@@ -100,18 +124,24 @@ vec4 bodySees(vec3 d, float level) {
   return textureLod(probes, vec3(0.5 + 0.5 * clamp(at, 1.0 / width - 1.0, 1.0 - 1.0 / width), 6.0 * float(max(body, 0)) + face), level);
 }`;
 
-/// Only what the room has is compiled: where the processor draws, that takes longer than a frame.
-const roomFragment = ({ bodies, rough, panes, sky, sheets }) => `#version 300 es
-#define BODIES ${Number(bodies)}
-#define ROUGH ${Number(rough)}
-#define PANES ${Number(panes)}
+const roomFragment = needs => `${onlyWhatItHas(needs)}
 precision highp float;
 precision highp int;
 precision highp sampler2DArray;
-in vec3 place, light, normal;
-in vec4 onTextures, colour;
-flat in int look, body, isFollowed;
+in vec3 place, light;
+flat in int look, isFollowed;
+#if COLOURS
+in vec4 colour;
+#else
+const vec4 colour = vec4(1.0);
+#endif
+#if SHEETS
+in vec4 onTextures;
 flat in ivec2 units;
+#else
+const vec4 onTextures = vec4(0.0);
+const ivec2 units = ivec2(-1);
+#endif
 uniform int shows, tells, facets;
 uniform float between; // of its way from the middle, what a facet's ray stands for
 uniform mat4 asideProjection;
@@ -125,9 +155,11 @@ uniform sampler2D looks, mirrored, falseScale;
 out vec4 result;
 const float pi = 3.14159265358979;
 #define NUMBERS(k) texelFetch(looks, ivec2(k, look), 0)
-${skyLight(sky)}
-${sheetAt(sheets)}
+${skyLight(needs.sky)}
+${sheetAt(needs.sheets)}
 #if BODIES
+in vec3 normal;
+flat in int body;
 ${bodySees}
 #else
 const bool hasBody = false;

@@ -8,22 +8,20 @@ void main() {
   gl_Position = vec4(at, 0.0, 1.0);
 }`;
 
-const screenFragment = `#version 300 es
-precision highp float;
-in vec2 at;
-uniform sampler2D picture;
-uniform int block; // the picture has so many pixels along each side of a pixel of the screen
-uniform int transform; // 0 srgb, 1 neutral, 2 agx
-out vec4 result;
-vec3 neutral(vec3 c) {
+const viewTransforms = {
+  srgb: `
+vec3 transformed(vec3 c) { return c; }`,
+  neutral: `
+vec3 transformed(vec3 c) {
   float least = min(c.r, min(c.g, c.b)), start = 0.76, d = 0.24;
   c -= least < 0.08 ? least - 6.25 * least * least : 0.04;
   float peak = max(c.r, max(c.g, c.b));
   if (peak < start) return c;
   float compressed = 1.0 - d * d / (peak + d - start);
   return mix(c * compressed / peak, vec3(compressed), 1.0 - 1.0 / (0.15 * (peak - compressed) + 1.0));
-}
-vec3 agx(vec3 c) {
+}`,
+  agx: `
+vec3 transformed(vec3 c) {
   const mat3 toRec2020 = mat3(0.6274, 0.0691, 0.0164, 0.3293, 0.9195, 0.0880, 0.0433, 0.0113, 0.8956);
   const mat3 fromRec2020 = mat3(1.6605, -0.1246, -0.0182, -0.5876, 1.1329, -0.1006, -0.0728, -0.0083, 1.1187);
   const mat3 inset = mat3(0.856627153315983, 0.137318972929847, 0.11189821299995, 0.0951212405381588, 0.761241990602591, 0.0767994186031903, 0.0482516061458583, 0.101439036467562, 0.811302368396859);
@@ -32,29 +30,41 @@ vec3 agx(vec3 c) {
   vec3 x = clamp((log2(max(c, 1e-10)) + 12.47393) / 16.5, 0.0, 1.0), x2 = x * x, x4 = x2 * x2;
   x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
   return fromRec2020 * pow(max(outset * x, 0.0), vec3(2.2));
-}
+}`
+};
+
+/// With one view transform, called in one place: what is compiled takes time where the processor draws.
+const screenFragment = transform => `#version 300 es
+precision highp float;
+in vec2 at;
+uniform sampler2D picture;
+uniform int block; // the picture has so many pixels along each side of a pixel of the screen
+uniform bool asItIs; // false colours
+out vec4 result;
+${viewTransforms[transform]}
 vec3 displayed(vec3 c) {
   c = max(c, 0.0);
-  return clamp(transform == 1 ? neutral(c) : transform == 2 ? agx(c) : c, 0.0, 1.0);
+  return clamp(asItIs ? c : transformed(c), 0.0, 1.0);
 }
 /// A pixel that is partly of something brighter than the display, seen straight, shows the mean of
 /// what its parts show (raytrace/pixels/bright_edges.h): lamps would have edges like stairs.
 void main() {
-  vec3 sum = vec3(0.0), parts = vec3(0.0);
-  float low = 1e30, high = 0.0, straight = 0.0;
+  vec3 sum = vec3(0.0), parts = vec3(0.0), c;
+  float low = 1e30, high = 0.0, straight = 0.0, share = 1.0 / float(block * block);
   ivec2 corner = ivec2(gl_FragCoord.xy) * block;
-  for (int j = 0; j < block; ++j)
-    for (int i = 0; i < block; ++i) {
-      vec4 texel = texelFetch(picture, corner + ivec2(i, j), 0);
-      vec3 part = texel.rgb;
-      straight += texel.a;
-      float brightest = max(part.r, max(part.g, part.b));
-      sum += part;
-      parts += displayed(part);
-      low = min(low, brightest);
-      high = max(high, brightest);
-    }
-  float share = 1.0 / float(block * block);
-  vec3 c = straight * share > 0.5 && high >= 1.0 && low < 0.75 * high ? parts * share : displayed(sum * share);
+  // Their mean comes last.
+  for (int k = 0; k <= block * block; ++k) {
+    bool isMean = k == block * block;
+    vec4 texel = isMean ? vec4(sum * share, 0.0) : texelFetch(picture, corner + ivec2(k % block, k / block), 0);
+    c = displayed(texel.rgb);
+    if (isMean) break;
+    straight += texel.a;
+    float brightest = max(texel.r, max(texel.g, texel.b));
+    sum += texel.rgb;
+    parts += c;
+    low = min(low, brightest);
+    high = max(high, brightest);
+  }
+  if (straight * share > 0.5 && high >= 1.0 && low < 0.75 * high) c = parts * share;
   result = vec4(mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)), 1.0);
 }`;

@@ -45,7 +45,7 @@ function makeStream(gl, room, positions) {
   const { tables, backs } = room, places = placesBeside(room), all = gl.createBuffer(), drawn = gl.createBuffer();
   const fixed = new Uint32Array(3 * places.windowTriangle);
   fixed.set(tables.triangles);
-  fixed.set(backs.corners.map(k => places.back + k), 3 * places.backTriangle);
+  for (let k = 0; k < backs.corners.length; ++k) fixed[3 * places.backTriangle + k] = places.back + backs.corners[k];
   cubeTriangles.forEach((corner, k) => { fixed[3 * places.skyTriangle + k] = places.sky + corner; });
   for (const buffer of [drawn, all]) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer); // what they are for is told by this
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * mostWindowPoints), gl.STATIC_DRAW);

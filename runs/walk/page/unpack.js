@@ -2,6 +2,7 @@
 "use strict";
 
 function bytesOf(base64) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
   const text = atob(base64), bytes = new Uint8Array(text.length);
   for (let k = 0; k < bytes.length; ++k) bytes[k] = text.charCodeAt(k);
   return bytes;
@@ -15,14 +16,16 @@ async function inflated(bytes) {
 
 /// One table from its place on: differences from row to row, folded, byte by byte.
 function readTable(bytes, place, table) {
-  const { rows, columns } = table, values = new Int32Array(rows * columns);
-  for (let byte = 0; byte < table.bytes; ++byte)
-    for (let column = 0; column < columns; ++column)
-      for (let k = column; k < values.length; k += columns)
-        values[k] |= bytes[place++] << (8 * byte);
-  for (let k = 0; k < values.length; ++k) {
-    const folded = values[k], difference = folded & 1 ? ~(folded >>> 1) : folded >>> 1;
-    values[k] = difference + (k < columns ? 0 : values[k - columns]);
+  const { rows, columns } = table, length = rows * columns, values = new Int32Array(length);
+  const highest = (table.bytes - 1) * length;
+  for (let column = 0; column < columns; ++column) {
+    let value = 0;
+    for (let k = column, lowest = place + column * rows; k < length; k += columns, ++lowest) {
+      let folded = 0;
+      for (let at = lowest + highest; at >= lowest; at -= length) folded = folded << 8 | bytes[at];
+      value = value + (folded >>> 1 ^ -(folded & 1)) | 0;
+      values[k] = value;
+    }
   }
   return values;
 }
@@ -50,11 +53,13 @@ async function readTables(data) {
   return tables;
 }
 
-/// IEEE 754 binary16.
-function halfToNumber(bits) {
-  const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;
-  if (exponent === 0) return sign * fraction * 2 ** -24;
-  return exponent === 31 ? sign * Infinity : sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+/// The numbers of finite halves (IEEE 754 binary16) by their bits: as those of floats of 32 bits, whose exponent counts from
+/// 127 in place of 15.
+function halvesToNumbers(bits) {
+  const numbers = new Float32Array(bits.length), floats = new Uint32Array(numbers.buffer);
+  for (let k = 0; k < bits.length; ++k) floats[k] = (bits[k] & 0x8000) << 16 | (bits[k] & 0x7fff) << 13;
+  for (let k = 0; k < bits.length; ++k) numbers[k] *= 2 ** 112;
+  return numbers;
 }
 
 /// An image that WebGL takes, its numbers as they are in the file.

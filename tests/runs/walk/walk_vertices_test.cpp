@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace meninas {
 namespace {
@@ -57,8 +59,19 @@ std::vector<std::uint32_t> at_corners(const PageVertices& page, const char* name
   return values;
 }
 
+/// With a normal, places on textures, and a colour, by the light of the vertex.
+WalkRoom dressed_facets() {
+  WalkRoom room = facets();
+  for (WalkVertex& v : room.vertices) {
+    v.normal = glm::normalize(v.irradiance);
+    v.colour_place = v.emission_place = glm::vec2(v.irradiance);
+    v.colour = glm::vec4(0.5F * v.irradiance, 1.0F);
+  }
+  return room;
+}
+
 TEST(WalkVertices, OfFacetsAreOneAtAPlaceOfABatch) {
-  const WalkRoom room = facets();
+  const WalkRoom room = dressed_facets();
   const PageVertices all = page_vertices(room, 0, VertexNumbering::by_room),
                      joined = page_vertices(room, 0, VertexNumbering::joined);
   EXPECT_EQ(vertices_of(all), room.vertices.size());
@@ -71,6 +84,23 @@ TEST(WalkVertices, OfFacetsAreOneAtAPlaceOfABatch) {
   EXPECT_EQ(unpacked(joined.packed, "elementEnds"), room.element_ends);
   // Six corners of a quad are a vertex and a few numbers of triangles.
   EXPECT_LT(2 * deflated(joined.packed.bytes).size(), deflated(all.packed.bytes).size());
+}
+
+// A page takes a room's vertices as white, without normals and without textures, unless it is told.
+TEST(WalkVertices, LeaveOutWhatNoneHas) {
+  const auto names = [](const WalkRoom& room) {
+    std::vector<std::string> all;
+    for (const PackedTable& table : page_vertices(room, 0, VertexNumbering::by_room).packed.tables)
+      all.push_back(table.name);
+    return all;
+  };
+  const std::vector<std::string> least{"position", "look", "irradiance", "triangles", "elementEnds"};
+  const std::vector<std::string> most{"position", "normal", "place", "colour", "look", "irradiance", "triangles", "elementEnds"};
+  EXPECT_EQ(names(facets()), least);
+  EXPECT_EQ(names(dressed_facets()), most);
+  WalkRoom room = facets();
+  room.vertices.back().colour.a = 0.5F;
+  EXPECT_EQ(names(room), (std::vector<std::string>{"position", "colour", "look", "irradiance", "triangles", "elementEnds"}));
 }
 
 // What differs in any way is apart: where it is, its light, that of a lamp alone, its colour.
