@@ -66,10 +66,16 @@ function numbersOf({ data, tables, probes, mirrors }) {
   return numbers;
 }
 
+/// A table in such a unit.
+function inUnits(table, unit, length = table.length) {
+  const values = new Float32Array(length);
+  for (let k = 0; k < table.length; ++k) values[k] = table[k] * unit;
+  return values;
+}
+
 /// By vertex, on the octahedron: those of bodies, and of black backs.
 function normalsOf({ tables, backs }, places) {
-  const normals = new Float32Array(2 * places.sky), known = tables.normal || [];
-  for (let k = 0; k < known.length; ++k) normals[k] = known[k] / 16384;
+  const normals = inUnits(tables.normal || [], 2 ** -14, 2 * places.sky);
   normals.set(backs.normals, 2 * places.back);
   return normals;
 }
@@ -98,7 +104,7 @@ function makeRoomArrays(gl, room, irradiance) {
   looks.fill(looksBeside.back, places.back).fill(looksBeside.sky, places.sky).fill(looksBeside.window, places.window);
   const positions = add(0, points, 3, gl.FLOAT), light = add(1, irradiance, 3, gl.FLOAT);
   add(2, normalsOf(room, places), 2, gl.FLOAT);
-  if (tables.place) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT);
+  if (tables.place) add(3, inUnits(tables.place, 2 ** -16), 4, gl.FLOAT);
   else gl.vertexAttrib4f(3, 0, 0, 0, 0);
   if (tables.colour) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
   add(5, looks, 1, gl.UNSIGNED_SHORT);

@@ -137,8 +137,7 @@ function makeBacks({ points, triangles }, count) {
 }
 
 function readRoom(data, tables) {
-  tables.points = new Float32Array(tables.position.length);
-  for (let k = 0; k < tables.points.length; ++k) tables.points[k] = tables.position[k] * data.step;
+  tables.points = inUnits(tables.position, data.step);
   const { low, high } = boxOf(tables, { first: 0, count: tables.triangles.length / 3 }), margin = 1e-5 * lengthOf(minus(high, low));
   data.batches.forEach(batch => { batch.parts = partsOf(tables, batch, margin); });
   const needs = needsOf(data), runs = joinedRuns(data, tables, data.batches);
