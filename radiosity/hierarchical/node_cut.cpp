@@ -75,7 +75,7 @@ NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<st
   return cut;
 }
 
-/// Receivers on a part of which something stands, or may stand: clusters that meet black backs, and
+/// Receivers on a part of which something stands, or may stand: clusters that say so (gathered_rays.h), and
 /// of those that meet black backs, elements that are covered are found as far
 /// as they are several of the cells that the receiver is looked at in.
 std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& cut) {
@@ -83,8 +83,7 @@ std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& c
   std::vector<std::uint8_t> marked;
   for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
     const TreeNode& node = tree.nodes[index(cut.receivers[r])];
-    const bool meets_black = cut.closure[r].black > 0.0F &&
-                             (is_cluster(node) || node.leaf_count > most_elements);
+    const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > most_elements;
     const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != wholly_covered;
     marked.push_back(!is_leaf(node) && partly ? 1 : 0);
   }

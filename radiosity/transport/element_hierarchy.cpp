@@ -1,6 +1,6 @@
 #include "radiosity/transport/element_hierarchy.h"
 
-#include "radiosity/mesh/face_clusters.h"
+#include "radiosity/transport/face_clusters.h"
 
 #include <algorithm>
 
@@ -158,13 +158,21 @@ void mark_walled(const ElementMesh& mesh, std::uint32_t number, std::size_t leaf
   }
 }
 
+/// How much longer a root cell of the side is along u.
+double aspect_of(const MeshSide& side, const SurfaceModel& surfaces) {
+  const auto& corners = surfaces.patches[index(side.patch)].corners;
+  const double along_u = glm::distance(corners[0], corners[1]) / side.nu;
+  const double along_v = glm::distance(corners[1], corners[2]) / side.nv;
+  return side.triangle ? 1.0 : along_u / std::max(along_v, 1e-300);
+}
+
 } // namespace
 
 NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   NodeTree tree;
   tree.elements.resize(element_count(mesh));
   std::vector<Piece> pieces;
-  std::vector<double> aspects; // of a root cell, by side: how much longer it is along u
+  std::vector<double> aspects; // by side
   const auto add = [&](SideId id, const Piece& piece, TreeNodeId parent) {
     const MeshSide& side = mesh.sides[index(id)];
     const Piece p = as_cell(side, piece);
@@ -192,11 +200,7 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
     }
   }
   for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
-    const MeshSide& side = mesh.sides[s];
-    const auto& corners = surfaces.patches[index(side.patch)].corners;
-    const double along_u = glm::distance(corners[0], corners[1]) / side.nu;
-    const double along_v = glm::distance(corners[1], corners[2]) / side.nv;
-    aspects.push_back(side.triangle ? 1.0 : along_u / std::max(along_v, 1e-300));
+    aspects.push_back(aspect_of(mesh.sides[s], surfaces));
     if (clustered[s] == 0)
       add_side(SideId{s}, none<TreeNodeId>);
   }

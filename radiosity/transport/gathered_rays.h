@@ -33,6 +33,7 @@ struct GatheredRays {
   glm::vec3 by_portals{0.0F}; ///< the same of rays that left by portals, which are not among these: W/m^2/sr
   std::uint64_t traced = 0;
   ContactMask covered = 0;
+  double near = 0.0; ///< of the rays of a cluster, those that met something within its reach
   double covered_rays = 0.0; ///< of `black`, those from where something stands
   float exposed = 1.0F;      ///< the share of the receiver's area on which nothing does
 
@@ -75,6 +76,14 @@ struct GatherWorkspace {
       black_lanes; ///< by packet of the net: the rays that met a black back at once
   std::vector<MirroredRay> current, next;
 };
+
+/// Whether something stands on a cluster of faces, or so near that they receive unlike light: black backs are met, or
+/// a sixteenth of all rays end within its reach. (The distance to what is met bounds how fast irradiance changes:
+/// Ward, Rubinstein and Clear 1988.)
+inline bool needs_its_faces(const GatheredRays& gathered) {
+  constexpr double many = 1.0 / 16.0;
+  return gathered.black > 0.0 || gathered.near > many * gathered.rays;
+}
 
 /// How rays ended: sums of their weights and of their light.
 struct Ends {

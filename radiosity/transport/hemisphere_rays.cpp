@@ -17,7 +17,6 @@ namespace {
 const Bsdf& coat_of(const LightScene& light, TriangleId triangle) {
   return light.by_angle[index(light.scene.triangles[index(triangle)].material)];
 }
-
 /// What a mirror, glass or a coat makes of light that meets it at this cosine.
 struct MirrorShares {
   glm::vec3 reflected, passed;
@@ -248,6 +247,8 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
         static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
     set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
+    for (std::uint32_t k = 0; k < packet.count && source.reach > 0.0F; ++k)
+      work.result.near += hits.triangle[k] != index(none<TriangleId>) && hits.distance[k] < source.reach;
     const auto first = first_of(rays) + static_cast<std::uint32_t>(n * packet_size);
     const auto sort = [&](auto&& let_in) {
       const FirstLegs legs{packet, weights_of(rays.packets[n]), let_in, first};
@@ -303,10 +304,11 @@ static void forget_rays(GatheredRays& result, GatherWorkspace& work) {
 static RaySource source_of(const LightScene& light, const ReceiverArea& receiver, std::uint32_t seed) {
   RaySource source = ray_source(receiver, light.rays.frame(), seed);
   double area = 0.0;
-  for (const ElementId face : receiver.faces) {
-    source.faces.push_back(ray_source(receiver_of(light, face), light.rays.frame(), seed));
-    source.area_up_to.push_back(area += light.mesh.area[index(face)]);
+  for (const ElementId f : receiver.faces) {
+    source.faces.push_back(ray_source(receiver_of(light, f), light.rays.frame(), seed));
+    source.area_up_to.push_back(area += light.mesh.area[index(f)]);
   }
+  source.reach = static_cast<float>(0.5 * std::sqrt(area) * light.rays.frame().scale);
   return source;
 }
 
@@ -316,8 +318,9 @@ void gather_rays(const LightScene& light, const HemisphereSamples& net, const Re
   work.seed = seed;
   trace_first_legs(light, net, source, settings, work);
   GatheredRays& result = work.result;
-  // What stands on a cluster, its faces are to tell.
-  if (result.black > 0.0 && !receiver.is_point() && receiver.faces.empty()) {
+  if (!receiver.faces.empty()) {
+    result.covered = needs_its_faces(result) ? 1 : 0; // which its faces tell
+  } else if (result.black > 0.0 && !receiver.is_point()) {
     const Covered covered = find_covered(light, net, source, work.black_lanes);
     if (covered.cells == wholly_covered)
       forget_rays(result, work);

@@ -34,7 +34,7 @@ namespace meninas {
 RowClosure closure_of(const GatheredRays& gathered);
 
 /// Traces the net from the receiver; the result stands in workspace.result.
-/// A cluster of faces does not tell which part of it is covered.
+/// A cluster of faces does not tell which part of it is covered, but whether its faces are to be asked.
 void gather_rays(const LightScene& light, const HemisphereSamples& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings,
                  GatherWorkspace& workspace);

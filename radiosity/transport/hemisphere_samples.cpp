@@ -173,7 +173,8 @@ static void set_rays_of_faces(const NetPacket& net, const RaySource& source, Ray
     const auto f = std::min(static_cast<std::size_t>(at), up_to.size() - 1);
     const double before = f == 0 ? 0.0 : up_to[f - 1];
     const RaySource& face = source.faces[f];
-    const double s = std::clamp((wanted - before) / (up_to[f] - before), 0.0, 1.0);
+    const double width = up_to[f] - before;
+    const double s = width > 0.0 ? std::clamp((wanted - before) / width, 0.0, 1.0) : 0.5;
     const Point3 x = point_in(face.area, Vec2(s, double{places.t[k]}));
     const Vec3 d = double{local.x[k]} * face.tangents.tangent +
                    double{local.y[k]} * face.tangents.bitangent + double{local.z[k]} * face.area.normal;

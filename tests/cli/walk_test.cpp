@@ -1,5 +1,4 @@
-// `walk`: that its page shows what the program renders, that it works in a browser, and that nothing
-// but whole pages of the scene's own solutions are written.
+// `walk`: its page shows what the program renders, works in a browser, and is whole and of the scene's own solution.
 #include "tests/cli/browser.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"

@@ -4,7 +4,7 @@
 //
 // Direct and indirect light are averaged apart. Their parts that come by way of mirrors are the
 // shares that a few rays find at the middle of each facet.
-// Facets that received the rest as a cluster (mesh/face_clusters.h) all have its mean. From cluster to cluster it is
+// Facets that received the rest as a cluster (transport/face_clusters.h) all have its mean. From cluster to cluster it is
 // to change as smoothly as the curve does: such facets take the mean of their vertices and these of their
 // facets, ring after ring, so far as a cluster reaches.
 #pragma once

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -64,6 +65,29 @@ TEST(ClusterReceivers, RowsAreMeansOverFaces) {
   ASSERT_GT(clusters, 100U);
   // Rays that are spread evenly err less than independent ones.
   EXPECT_LT(squares, variance);
+}
+
+// Light on one side of a sheet is none on the other, though both sides of it may be seen: faces near it tell.
+TEST(ClusterReceivers, DoNotReachPastASheet) {
+  Scene scene = room_with_ball(0.5, 0.5, 0.5);
+  constexpr double at = 2.01; // between rows of faces
+  add_polygon(scene, "sheet", {{at, 1.2, 1.6}, {at, 2.0, 1.6}, {at, 2.0, 2.4}, {at, 1.2, 2.4}},
+              double_sided(diffuse(0.5)));
+  const auto l = lit(std::move(scene), {.element_size = 0.5});
+  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const auto straddle = [&](TreeNodeId id) {
+    const auto faces = elements_below(tree, id);
+    const auto beyond = std::ranges::count_if(
+        faces, [&](ElementId e) { return centre_of(l->mesh, e).x > at; });
+    return is_cluster(tree.nodes[index(id)]) && beyond > 0 && beyond < std::ssize(faces);
+  };
+  EXPECT_GT(std::ranges::count_if(first_receivers(l->mesh, tree), straddle), 4);
+  const NodeCut cut = first_cut(*l->light, tree, {.rays = 64}, {});
+  EXPECT_EQ(std::ranges::count_if(cut.receivers, straddle), 0);
+  // Those away from it stay.
+  EXPECT_GT(std::ranges::count_if(cut.receivers, [&](TreeNodeId id) {
+    return is_cluster(tree.nodes[index(id)]);
+  }), 100);
 }
 
 // Everything glows and reflects so that B = 1: E = 1 - rho. Clusters of a convex body see nothing but that.

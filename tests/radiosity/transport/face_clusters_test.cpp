@@ -1,5 +1,5 @@
 // Clusters of the faces of finely tessellated curves: what they hold, and that they turn with the scene.
-#include "radiosity/mesh/face_clusters.h"
+#include "radiosity/transport/face_clusters.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/scenes/soup.h"
 #include "tests/support/scene_builder.h"

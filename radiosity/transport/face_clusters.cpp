@@ -1,4 +1,4 @@
-#include "radiosity/mesh/face_clusters.h"
+#include "radiosity/transport/face_clusters.h"
 
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/small_surfaces.h"
