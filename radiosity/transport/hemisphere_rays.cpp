@@ -308,7 +308,7 @@ static RaySource source_of(const LightScene& light, const ReceiverArea& receiver
     source.faces.push_back(ray_source(receiver_of(light, f), light.rays.frame(), seed));
     source.area_up_to.push_back(area += light.mesh.area[index(f)]);
   }
-  source.reach = static_cast<float>(0.5 * std::sqrt(area) * light.rays.frame().scale);
+  source.reach = static_cast<float>(std::sqrt(area) * light.rays.frame().scale);
   return source;
 }
 

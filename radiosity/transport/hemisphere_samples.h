@@ -80,7 +80,7 @@ struct RaySource {
   TangentFrame tangents;
   std::array<std::uint32_t, 4> shift;
   std::vector<RaySource> faces = {};     ///< of a cluster
-  float reach = 0.0F; ///< of a cluster: half the edge of a square as large
+  float reach = 0.0F; ///< of a cluster: the edge of a square as large
   std::vector<double> area_up_to = {}; ///< by face of a cluster, m^2: its own and of all before
 };
 RaySource ray_source(const ReceiverArea& receiver, const RayFrame& frame, std::uint32_t seed);
