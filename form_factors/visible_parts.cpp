@@ -39,6 +39,8 @@ bool reaches_into(const ConvexPolygon& a, const ConvexPolygon& b, const Directio
   for (std::size_t k = 0; k < a.size; ++k) {
     const Vec3 edge = a.vertices[k + 1 < a.size ? k + 1 : 0] - a.vertices[k];
     const Vec3 inwards = glm::cross(normal, edge);
+    if (inwards == Vec3(0.0)) // two corners in one place
+      continue;
     const auto is_outside = [&](const Point3& vertex) {
       return glm::dot(inwards, vertex - a.vertices[k]) <= depth * glm::length(inwards);
     };

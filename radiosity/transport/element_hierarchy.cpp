@@ -220,8 +220,8 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
     }
   }
   if (!mesh.walled_edges.empty())
-    for (std::size_t n = 0; n < tree.nodes.size(); ++n)
-      if (n >= first_side && pieces[n].shape == Shape::cell && is_leaf(mesh.cells[pieces[n].cell]))
+    for (std::size_t n = first_side; n < tree.nodes.size(); ++n)
+      if (pieces[n].shape == Shape::cell && is_leaf(mesh.cells[pieces[n].cell]))
         mark_walled(mesh, pieces[n].cell, n, tree);
   number_leaves(tree);
   return tree;

@@ -73,24 +73,6 @@ void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high,
     add_polygon(scene, name + "." + face_names[k], {faces[k].rbegin(), faces[k].rend()}, material);
 }
 
-void add_ball(Scene& scene, const std::string& name, Point3 centre, double radius, int n,
-              const Material& material) {
-  const auto at = [&](int i, int k) {
-    const double polar = std::numbers::pi * i / n, turn = std::numbers::pi * k / n;
-    return centre + radius * Vec3(std::sin(polar) * std::cos(turn), std::cos(polar),
-                                  -std::sin(polar) * std::sin(turn));
-  };
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 2 * n; ++k) {
-      std::vector<Point3> face{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)};
-      if (i == 0)
-        face.pop_back();
-      if (i == n - 1)
-        face.erase(face.begin() + 2);
-      add_polygon(scene, name, face, material);
-    }
-}
-
 Camera look_at(Point3 eye, Point3 target, double vertical_fov) {
   Camera camera;
   camera.position = eye;

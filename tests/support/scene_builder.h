@@ -25,10 +25,6 @@ void add_room(Scene& scene, Point3 low, Point3 high, const std::array<Material, 
 void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high,
              const Material& material);
 
-/// A ball of 2 n^2 outward quads and triangles, n from pole to pole, all of one name.
-void add_ball(Scene& scene, const std::string& name, Point3 centre, double radius, int n,
-              const Material& material);
-
 /// A camera at `eye` that looks at `target`, +Y up.
 Camera look_at(Point3 eye, Point3 target, double vertical_fov);
 

@@ -28,10 +28,11 @@ static void smooth_over_clusters(const ElementMesh& mesh, const VertexElements& 
       if (clustered[e] == 0 || elements.irradiance[e] == Rgb(0.0) ||
           !std::ranges::all_of(corners, [&](ElementVertexId v) { return is_averaged(facets, index(v)); }))
         return;
+      const std::size_t count = mesh.sides[index(mesh.side_of_element[e])].triangle ? 3 : 4;
       Rgb sum(0.0);
-      for (const ElementVertexId v : corners)
-        sum += Rgb(at_vertices[index(v)]);
-      rest[e] = sum / 4.0;
+      for (std::size_t c = 0; c < count; ++c)
+        sum += Rgb(at_vertices[index(corners[c])]);
+      rest[e] = sum / double(count);
     });
   }
 }

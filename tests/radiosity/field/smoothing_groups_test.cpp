@@ -1,5 +1,8 @@
 #include "radiosity/field/curves/curved_vertices.h"
+#include "radiosity/field/curves/smooth_vertices.h"
 #include "radiosity/field/curves/smoothing_groups.h"
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/transport/face_clusters.h"
 #include "radiosity/light/point_irradiance.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/globes.h"
@@ -143,6 +146,51 @@ TEST(Facets, AskNothingOfMirrorsForAPictureWithoutLayers) {
     EXPECT_TRUE(plain.field.indirect_mirrored.empty());
     EXPECT_LT(plain.form_factor_rays, asked.form_factor_rays);
   }
+}
+
+// Light that is linear in space, as clusters have it: their means. Spread from one to the next it is nearer to what it
+// stands for, and stays within what there was.
+TEST(Facets, OfClustersShareTheirLightOut) {
+  Scene scene = half_room();
+  add_globe(scene, "globe", {{1.2, 1.1, 1.3}, 0.15, 100, 50}, diffuse(0.6));
+  const auto l = lit(std::move(scene), {.element_size = 0.5});
+  const std::size_t size = element_count(l->mesh);
+  const auto light_at = [](const Point3& x) { return 1.0 + 4.0 * (x.y - 1.1); };
+  const FaceClusters clusters = face_clusters(l->mesh, l->surfaces);
+  ASSERT_GT(clusters.size(), 100U);
+  ElementLight elements{std::vector<Rgb>(size, Rgb(0.0)), std::vector<Rgb>(size, Rgb(1.0)),
+                        std::vector<Rgb>(size, Rgb(0.0))};
+  std::vector<std::uint8_t> clustered(size, 0);
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    double mean = 0.0, area = 0.0;
+    for (const SideId side : clusters.of(c)) {
+      const std::uint32_t e = l->mesh.sides[index(side)].first_element;
+      mean += l->mesh.area[e] * light_at(centre_of(l->mesh, ElementId{e}));
+      area += l->mesh.area[e];
+    }
+    for (const SideId side : clusters.of(c)) {
+      const std::uint32_t e = l->mesh.sides[index(side)].first_element;
+      elements.irradiance[e] = Rgb(mean / area);
+      clustered[e] = 1;
+    }
+  }
+  const VertexElements facets = facets_around(*l->light);
+  const FormFactorSettings rays;
+  PointWorkspaces workspaces;
+  const auto squared_error = [&](std::span<const std::uint8_t> spread) {
+    VertexSamples found = make_samples(*l->light, facets);
+    average_facets(*l->light, elements, facets, {rays, spread, false}, workspaces, found.field);
+    double sum = 0.0;
+    for (const std::size_t v : vertices_of(*l, "globe")) {
+      EXPECT_GE(found.field.indirect[v].g, 0.4F);
+      EXPECT_LE(found.field.indirect[v].g, 1.6F);
+      const double error = double{found.field.indirect[v].g} - light_at(l->mesh.vertices[v]);
+      sum += error * error;
+    }
+    return sum;
+  };
+  // Half the error of steps between means is what one ring leaves; four leave less.
+  EXPECT_LT(squared_error(clustered), 0.5 * squared_error({}));
 }
 
 } // namespace

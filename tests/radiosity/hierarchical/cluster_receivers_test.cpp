@@ -15,6 +15,25 @@
 namespace meninas::test {
 namespace {
 
+/// A ball of 2 n^2 faces, row after row from pole to pole.
+void add_ball(Scene& scene, const std::string& name, Point3 centre, double radius, int n,
+              const Material& material) {
+  const auto at = [&](int i, int k) {
+    const double polar = std::numbers::pi * i / n, turn = std::numbers::pi * k / n;
+    return centre + radius * Vec3(std::sin(polar) * std::cos(turn), std::cos(polar),
+                                  -std::sin(polar) * std::sin(turn));
+  };
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 2 * n; ++k) {
+      std::vector<Point3> face{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)};
+      if (i == 0)
+        face.pop_back();
+      if (i == n - 1)
+        face.erase(face.begin() + 2);
+      add_polygon(scene, name, face, material);
+    }
+}
+
 /// A ball of 5,000 faces in a room whose ceiling is brighter than the rest.
 Scene room_with_ball(double wall, double ceiling, double ball) {
   Scene scene;

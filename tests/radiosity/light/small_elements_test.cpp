@@ -2,7 +2,7 @@
 #include "radiosity/light/direct_irradiance.h"
 #include "radiosity/scene/small_elements.h"
 #include "tests/radiosity/lit_scene.h"
-#include "tests/support/scene_builder.h"
+#include "tests/support/globes.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ Scene room_with_bulb(int n) {
   std::array<Material, 6> walls;
   walls.fill(diffuse(0.5));
   add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
-  add_ball(scene, "bulb", {2.0, 1.6, 2.0}, 0.15, n, diffuse(0.5, 10.0));
+  add_globe(scene, "bulb", {{2.0, 1.6, 2.0}, 0.15, 2 * n, n}, diffuse(0.5, 10.0));
   return scene;
 }
 

@@ -2,7 +2,7 @@
 #include "radiosity/transport/face_clusters.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/scenes/soup.h"
-#include "tests/support/scene_builder.h"
+#include "tests/support/globes.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Scene room_with_ball(int rings) {
   std::array<Material, 6> walls;
   walls.fill(diffuse(0.5));
   add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
-  add_ball(scene, "ball", {2.0, 1.6, 2.0}, 0.15, rings, diffuse(0.5));
+  add_globe(scene, "ball", {{2.0, 1.6, 2.0}, 0.15, 2 * rings, rings}, diffuse(0.5));
   return scene;
 }
 
