@@ -1,5 +1,6 @@
 #include "radiosity/transport/form_factors.h"
 
+#include "radiosity/mesh/small_surfaces.h"
 #include "radiosity/scene/small_elements.h"
 #include "radiosity/transport/analytic_rows.h"
 #include "radiosity/transport/element_hemicube.h"
@@ -277,15 +278,13 @@ static FormFactors assemble(const LightScene& light, RowRange range, const RowRe
   expects(settings.method != FormFactorMethod::analytic, "rows of parts are sampled");
   const std::size_t size = range.count;
   const bool by_cubes = settings.method == FormFactorMethod::hemicube;
-  bool has_clusters = false;
-  for (std::size_t row = 0; row < size && !has_clusters; ++row)
-    has_clusters = !receiver(range.first + row).faces.empty();
   const Assembly assembly{light,
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
                           make_direction_net(few_of(settings.rays, 16)),
-                          has_clusters ? make_direction_net(rays_of_cluster * settings.rays)
-                                       : HemisphereSamples{},
+                          is_finely_tessellated(light.mesh)
+                              ? make_direction_net(rays_of_cluster * settings.rays)
+                              : HemisphereSamples{},
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
                           kept_beyond(light.mesh, settings),
                           grey_mirrors(light.scene) ? 1 : 3,

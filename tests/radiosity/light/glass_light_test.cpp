@@ -9,6 +9,7 @@
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"
+#include "tests/support/globes.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
@@ -21,26 +22,6 @@ namespace meninas::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Faces outwards, of `steps` by 2 `steps` parts.
-void add_ball(Scene& scene, const std::string& name, const Point3& centre, double radius, int steps,
-              const Material& material) {
-  const auto at = [&](int i, int j) {
-    const double up = pi * i / steps, round = pi * j / steps;
-    return centre + radius * Vec3(std::sin(up) * std::cos(round), std::cos(up),
-                                  std::sin(up) * std::sin(round));
-  };
-  for (int i = 0; i < steps; ++i)
-    for (int j = 0; j < 2 * steps; ++j) {
-      std::vector<Point3> corners{at(i, j)};
-      if (i > 0)
-        corners.push_back(at(i, (j + 1) % (2 * steps)));
-      if (i + 1 < steps)
-        corners.push_back(at(i + 1, (j + 1) % (2 * steps)));
-      corners.push_back(at(i + 1, j));
-      add_polygon(scene, name, corners, material);
-    }
-}
 
 Receiver on_floor(const LitScene& lit, const Point3& x) {
   const MeshSide& floor =
@@ -147,7 +128,7 @@ double through_ball(double r, double h, double a, double b) {
 TEST(SolidLight, ABallCollectsLightAndLeavesAShadow) {
   constexpr double r = 0.2, h = 0.3, inner = 0.12, outer = 0.185;
   Scene scene = floor_and_lamp(40.0, 2.0);
-  add_ball(scene, "ball", {0, h, 0}, r, 64, solid_glass(Rgb(1.0)));
+  add_globe(scene, "ball", {.centre = {0, h, 0}, .radius = r, .meridians = 128, .parallels = 64}, solid_glass(Rgb(1.0)));
   const auto room = lit(std::move(scene), {.element_size = 1.0});
   DirectSettings settings;
   settings.solid_rays = 1 << 14;
@@ -184,7 +165,7 @@ Scene room_of_solids() {
   amber.attenuation_color = {0.8, 0.5, 0.2};
   amber.attenuation_distance = 0.5;
   add_box(scene, "block", {0.3, 0.05, 0.6}, {0.8, 0.8, 1.2}, amber);
-  add_ball(scene, "ball", {1.4, 0.5, 0.9}, 0.35, 12, solid_glass(Rgb(1.0)));
+  add_globe(scene, "ball", {.centre = {1.4, 0.5, 0.9}, .radius = 0.35}, solid_glass(Rgb(1.0)));
   return scene;
 }
 
@@ -212,7 +193,7 @@ TEST(SolidLight, RowsCloseAndEnergyIsAccountedFor) {
 
 TEST(SolidLight, AWhiteFurnaceStaysWhite) {
   Scene scene = furnace(0.5, {}, Point3(2.0));
-  add_ball(scene, "ball", {1.0, 0.8, 1.1}, 0.5, 10, solid_glass(Rgb(1.0)));
+  add_globe(scene, "ball", {.centre = {1.0, 0.8, 1.1}, .radius = 0.5, .meridians = 20, .parallels = 10}, solid_glass(Rgb(1.0)));
   add_box(scene, "block", {0.1, 0.2, 0.1}, {0.4, 1.2, 0.6}, solid_glass(Rgb(1.0), 2.4));
   PassOneSettings settings = coarse();
   const auto room = lit(std::move(scene), settings.mesh, settings.plan);
