@@ -1,5 +1,7 @@
 #include "image/codecs/exr_encoding.h"
 
+#include "scenes/version.h"
+
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -104,7 +106,7 @@ static Imf::Header header_of(const DataWindow& window, std::span<const Planes> p
   for (const auto& [prefix, image, components] : planes)
     for (const char* component : components)
       header.channels().insert(prefix + component, Imf::Channel(type));
-  header.insert("Software", Imf::StringAttribute("Meninas " MENINAS_VERSION));
+  header.insert("Software", Imf::StringAttribute("Meninas " + std::string(program_version())));
   for (const auto& [key, value] : attributes)
     if (!value.empty())
       header.insert(std::string(attribute_prefix) + key, Imf::StringAttribute(value));
