@@ -52,20 +52,20 @@ struct Planes {
   std::span<const char* const> components;
 };
 
-constexpr std::array colour = {"R", "G", "B"};
-constexpr std::array vector = {"X", "Y", "Z"};
-constexpr std::array depth = {"Z"};
-constexpr std::array alpha = {"A"};
+constexpr std::array colour_names = {"R", "G", "B"};
+constexpr std::array vector_names = {"X", "Y", "Z"};
+constexpr std::array depth_name = {"Z"};
+constexpr std::array alpha_name = {"A"};
 
 /// What compositors know a layer's channels by. Of depth and alpha R is written.
 std::span<const char* const> components_of(std::string_view layer) {
   if (layer == "depth")
-    return depth;
+    return depth_name;
   if (layer == "alpha")
-    return alpha;
+    return alpha_name;
   if (layer == "normal")
-    return vector;
-  return colour;
+    return vector_names;
+  return colour_names;
 }
 
 template <typename Value>
@@ -78,13 +78,13 @@ enum class LayerChannels { known, colours };
 
 static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers,
                                      LayerChannels channels) {
-  std::vector<Planes> planes{{"", &picture, colour}};
+  std::vector<Planes> planes{{"", &picture, colour_names}};
   for (const Layer& layer : layers)
     if (channels == LayerChannels::known) // the alpha is that of the picture itself: A
       planes.push_back({layer.name == "alpha" ? "" : layer.name + ".", &layer.image,
                         components_of(layer.name)});
     else
-      planes.push_back({layer.name + ".", &layer.image, colour});
+      planes.push_back({layer.name + ".", &layer.image, colour_names});
   return planes;
 }
 
