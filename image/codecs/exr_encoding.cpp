@@ -1,7 +1,5 @@
 #include "image/codecs/exr_encoding.h"
 
-#include "scenes/version.h"
-
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -52,20 +50,20 @@ struct Planes {
   std::span<const char* const> components;
 };
 
-constexpr std::array colour_names = {"R", "G", "B"};
-constexpr std::array vector_names = {"X", "Y", "Z"};
-constexpr std::array depth_name = {"Z"};
-constexpr std::array alpha_name = {"A"};
+constexpr std::array colour = {"R", "G", "B"};
+constexpr std::array vector = {"X", "Y", "Z"};
+constexpr std::array depth = {"Z"};
+constexpr std::array alpha = {"A"};
 
 /// What compositors know a layer's channels by. Of depth and alpha R is written.
 std::span<const char* const> components_of(std::string_view layer) {
   if (layer == "depth")
-    return depth_name;
+    return depth;
   if (layer == "alpha")
-    return alpha_name;
+    return alpha;
   if (layer == "normal")
-    return vector_names;
-  return colour_names;
+    return vector;
+  return colour;
 }
 
 template <typename Value>
@@ -78,13 +76,13 @@ enum class LayerChannels { known, colours };
 
 static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers,
                                      LayerChannels channels) {
-  std::vector<Planes> planes{{"", &picture, colour_names}};
+  std::vector<Planes> planes{{"", &picture, colour}};
   for (const Layer& layer : layers)
     if (channels == LayerChannels::known) // the alpha is that of the picture itself: A
       planes.push_back({layer.name == "alpha" ? "" : layer.name + ".", &layer.image,
                         components_of(layer.name)});
     else
-      planes.push_back({layer.name + ".", &layer.image, colour_names});
+      planes.push_back({layer.name + ".", &layer.image, colour});
   return planes;
 }
 
@@ -106,7 +104,7 @@ static Imf::Header header_of(const DataWindow& window, std::span<const Planes> p
   for (const auto& [prefix, image, components] : planes)
     for (const char* component : components)
       header.channels().insert(prefix + component, Imf::Channel(type));
-  header.insert("Software", Imf::StringAttribute("Meninas " + std::string(program_version())));
+  header.insert("Software", Imf::StringAttribute("Meninas " MENINAS_VERSION));
   for (const auto& [key, value] : attributes)
     if (!value.empty())
       header.insert(std::string(attribute_prefix) + key, Imf::StringAttribute(value));
