@@ -2,11 +2,11 @@
 #include "cli/common_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
+#include "runs/batch/batch_file.h"
 #include "runs/batch/batch_run.h"
 #include "runs/report/progress_line.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -28,37 +28,6 @@ void print(const std::string& text) {
   if (!std::cout) {
     throw OutputError("", "standard output", "cannot write");
   }
-}
-
-/// The schema with every option that may be a setting, so that editors know them too.
-std::string schema_with_settings() {
-  auto schema = nlohmann::ordered_json::parse(batch_schema());
-  auto& properties = schema["$defs"]["settings"]["properties"];
-  for (const SettingHelp& setting : render_settings_help()) {
-    if (setting.name == "camera" || setting.name == "mode") {
-      continue; // a job has them itself
-    }
-    nlohmann::ordered_json property{{"description", setting.description}};
-    if (setting.takes.empty()) {
-      property["type"] = {"boolean", "null"};
-    } else if (setting.takes.starts_with('[')) {
-      property["type"] = {"boolean", "string", "number", "null"};
-    } else if (setting.takes.find('|') != std::string::npos) {
-      property["enum"] = nlohmann::ordered_json::array();
-      std::string_view names = setting.takes;
-      for (auto bar = names.find('|'); !names.empty(); bar = names.find('|')) {
-        property["enum"].push_back(std::string(names.substr(0, bar)));
-        names.remove_prefix(bar == std::string_view::npos ? names.size() : bar + 1);
-      }
-      property["enum"].push_back(nullptr);
-    } else if (setting.repeatable) {
-      property["anyOf"] = {{{"type", {"string", "null"}}}, {{"$ref", "#/$defs/texts"}}};
-    } else {
-      property["type"] = {"string", "number", "null"};
-    }
-    properties[setting.name] = property;
-  }
-  return schema.dump(2) + '\n';
 }
 
 /// 3; 10-19; 1,4-6
@@ -176,7 +145,7 @@ void add_options(Options& command, BatchOptions& options) {
               [&](const std::string& text) { request.cache = text; });
   add_file(command, "--junit", request.junit, "write JUnit XML");
   command.add_flag("--schema", "print the JSON Schema of jobs files, and end", [] {
-    print(schema_with_settings());
+    print(batch_schema(render_settings_help()));
     throw Answered{};
   });
   command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {

@@ -13,12 +13,7 @@ namespace meninas {
 RenderRequest parse_render_settings(const std::filesystem::path& scene,
                                     const std::vector<Setting>& settings);
 
-/// An option that may be a setting, as its help says it.
-struct SettingHelp {
-  std::string name, description;
-  std::string takes; ///< what its value looks like, or names joined by '|'; empty for a flag
-  bool repeatable = false;
-};
+/// The options that may be settings.
 std::vector<SettingHelp> render_settings_help();
 
 } // namespace meninas

@@ -69,7 +69,7 @@ else()
 endif()
 
 # meninas_chapters(meninas_scenes): the sources of each folder of that library are compiled as one, and those of folders that stand
-# one behind the other in its list together while they are at most 24: most of a source's time goes into what another has read as well.
+# one behind the other in its list together while they are at most 40: most of a source's time goes into what another has read as well.
 function(meninas_chapters target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${MENINAS_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   # The file of a chapter names its sources by whole paths, which messages and packages should not know.
@@ -86,7 +86,7 @@ function(meninas_chapters target)
   foreach(chapter IN LISTS chapters)
     list(LENGTH sources_of_${chapter} length)
     math(EXPR together "${together} + ${length}")
-    if(together EQUAL length OR together GREATER 24)
+    if(together EQUAL length OR together GREATER 40)
       set(group ${chapter})
       set(together ${length})
     endif()

@@ -87,8 +87,8 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
     const Scattering scattering{solved.first.reflectance, solved.first.translucent};
     solved.by_lamp = solve_together(
         factors.transport, scattered(scattering, solved.first.by_lamp), scattering, settings.solver);
-    solved.irradiance_by_lamp =
-        solved.first.by_lamp + transport_product(factors.transport, solved.by_lamp);
+    solved.irradiance_by_lamp = solved.first.by_lamp;
+    solved.irradiance_by_lamp += transport_product(factors.transport, solved.by_lamp);
   }
   solved.solve_seconds = stopwatch.lap() - watched.seconds;
   return solved;

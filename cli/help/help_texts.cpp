@@ -64,12 +64,12 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
   return examples;
 }
 
-/// The options that `-h` shows, of commands that have many.
+/// The options that `-h` shows, of commands that have many: ten at most.
 const std::map<std::string_view, std::vector<std::string_view>>& first_options() {
   static const std::map<std::string_view, std::vector<std::string_view>> options{
       {"render",
-       {"output", "quality", "error", "time", "size", "camera", "exposure", "diffuse", "mode",
-        "background", "solution", "stats"}},
+       {"output", "quality", "error", "time", "size", "camera", "exposure", "mode", "background",
+        "solution"}},
       {"solve",
        {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
       {"walk", {"output", "quality", "solution", "by-lamp", "exposure", "elements", "background"}},

@@ -27,8 +27,8 @@ NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<T
   NodeCut part;
   part.emission = gathered_emission(light, factors);
   const LightByLamp by_lamp = gathered_by_lamp(light, factors);
-  for (Eigen::Index row = 0; row < by_lamp.rows(); ++row)
-    part.emission_by_lamp.emplace_back(by_lamp.row(row).begin(), by_lamp.row(row).end());
+  for (std::size_t row = 0; row < by_lamp.rows; ++row)
+    part.emission_by_lamp.emplace_back(by_lamp[row].begin(), by_lamp[row].end());
   part.receivers = std::move(nodes);
   part.rows = std::move(factors.transport);
   part.closure = std::move(factors.closure);

@@ -70,9 +70,10 @@ LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSo
                       scattered(found.mesh.reflectance, elements.translucent, received));
   }
   // Of what corners know nothing the elements' own light tells.
-  for (Eigen::Index e = 0; e < by_lamp.rows(); ++e)
-    if (gathered[static_cast<std::size_t>(e)] == 0 || by_lamp.row(e).isZero(0.0))
-      by_lamp.row(e) = elements.by_lamp.row(e);
+  const auto is_zero = [](double light) { return light == 0.0; };
+  for (std::size_t e = 0; e < by_lamp.rows; ++e)
+    if (gathered[e] == 0 || std::ranges::all_of(by_lamp[e], is_zero))
+      std::ranges::copy(elements.by_lamp[e], by_lamp[e].begin());
   add_up_to(reflected, by_lamp);
   return by_lamp;
 }
@@ -148,7 +149,7 @@ void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gat
     for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
       const auto of_lamp = [l](const LightByLamp& light) {
         return [&light, l](std::uint32_t e) {
-          return Rgb(light(e, 3 * l), light(e, 3 * l + 1), light(e, 3 * l + 2));
+          return Rgb(light[e][3 * l], light[e][3 * l + 1], light[e][3 * l + 2]);
         };
       };
       field.by_lamp[l].direct[v] = lit.by_lamp[l].direct[v];

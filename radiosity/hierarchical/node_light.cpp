@@ -159,7 +159,7 @@ void recompute_direct(const LightScene& light, std::span<const ElementId> elemen
   }
   if (light.lamps) {
     for (std::size_t k = 0; k < elements.size(); ++k)
-      direct.by_lamp.row(index(elements[k])) = means.by_lamp.row(static_cast<Eigen::Index>(k));
+      std::ranges::copy(means.by_lamp[k], direct.by_lamp[index(elements[k])].begin());
     add_up_to(direct.irradiance, direct.by_lamp);
   }
   direct.shadow_rays += means.shadow_rays;

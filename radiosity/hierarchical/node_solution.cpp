@@ -207,7 +207,7 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
     gathered = no_light(lit.areas.size(), light.lamps.count);
     for (std::size_t e = 0; e < lit.areas.size(); ++e)
       std::ranges::copy(lit.cut.emission_by_lamp[lit.cut.receiver_of_element[e]],
-                        gathered.row(static_cast<Eigen::Index>(e)).begin());
+                        gathered[e].begin());
   }
   lit.first = first_light(light,
                           {by_element(lit.cut, lit.cut.emission), closure, lit.covered, lit.exposed,
@@ -279,15 +279,18 @@ void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Received& s
   const Scattering of_receivers{reflectance, translucent};
   const LightByLamp sent =
       solve_together(links, scattered(of_receivers, from_first), of_receivers, settings);
-  LightByLamp received = from_first + transport_product(links, sent);
+  LightByLamp received = from_first;
+  received += transport_product(links, sent);
   for (std::size_t c = 0; c < solved.open.size(); ++c)
-    for (Eigen::Index k = 0; k < received.cols(); ++k)
-      received(static_cast<Eigen::Index>(c), k) *= solved.open[c][static_cast<int>(k % 3)];
-  LightByLamp arrived(source.rows(), source.cols());
-  for (Eigen::Index e = 0; e < arrived.rows(); ++e)
-    arrived.row(e) = received.row(cut.receiver_of_element[static_cast<std::size_t>(e)]);
-  result.reflected_by_lamp = source + scattered(of_elements, arrived);
-  result.irradiance_by_lamp = first.by_lamp + arrived;
+    for (std::size_t k = 0; k < received.columns; ++k)
+      received[c][k] *= solved.open[c][static_cast<int>(k % 3)];
+  LightByLamp arrived{.rows = source.rows, .columns = source.columns};
+  for (std::size_t e = 0; e < arrived.rows; ++e)
+    std::ranges::copy(received[cut.receiver_of_element[e]], arrived[e].begin());
+  result.reflected_by_lamp = source;
+  result.reflected_by_lamp += scattered(of_elements, arrived);
+  result.irradiance_by_lamp = first.by_lamp;
+  result.irradiance_by_lamp += arrived;
 }
 
 std::uint64_t bytes_of(const Transport& transport) {

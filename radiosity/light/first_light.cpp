@@ -63,7 +63,7 @@ LightByLamp first_by_lamp(const LightScene& light, LightByLamp gathered,
                           const std::vector<Rgb>& sky, const DirectIrradiance& direct) {
   if (!light.lamps)
     return {};
-  if (direct.by_lamp.rows() > 0)
+  if (direct.by_lamp.rows > 0)
     gathered += direct.by_lamp;
   if (!sky.empty()) {
     std::vector<Rgb> all = light_of_lamp(gathered, light.lamps.sky);

@@ -54,8 +54,8 @@ DiscPart part_towards(const SolidBody& body, const Point3& x, const Direction& n
 }
 
 /// Cells along an edge of the rectangle.
-constexpr std::uint32_t edge = 8;
-constexpr std::uint32_t cells = edge * edge;
+constexpr std::uint32_t edge_cells = 8;
+constexpr std::uint32_t cells = edge_cells * edge_cells;
 
 /// What the rays to one body share.
 struct BodyRays {
@@ -84,7 +84,8 @@ PlacedSample place(glm::vec2 u, std::span<const float> density) {
   while (cell + 1 < cells && before + density[cell] <= along)
     before += density[cell++];
   const float within = std::clamp((along - before) / density[cell], 0.0F, 0x1.fffffep-1F);
-  return {(glm::vec2(cell % edge, cell / edge) + glm::vec2(within, u.y)) / float(edge), cell};
+  const glm::vec2 corner(cell % edge_cells, cell / edge_cells);
+  return {(corner + glm::vec2(within, u.y)) / float(edge_cells), cell};
 }
 
 /// Adds the ray to that point of the rectangle, where it lies in the disc.
@@ -162,13 +163,13 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
 void aim(SolidWorkspace& work) {
   constexpr float even = 0.3F;
   float all = 0.0F;
-  for (int y = 0; y < int(edge); ++y)
-    for (int x = 0; x < int(edge); ++x) {
+  for (int y = 0; y < int(edge_cells); ++y)
+    for (int x = 0; x < int(edge_cells); ++x) {
       float most = 0.0F;
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, int(edge) - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, int(edge) - 1); ++i)
-          most = std::max(most, work.shown[static_cast<std::size_t>(j) * edge + i]);
-      work.density[static_cast<std::size_t>(y) * edge + x] = most;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, int(edge_cells) - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, int(edge_cells) - 1); ++i)
+          most = std::max(most, work.shown[static_cast<std::size_t>(j) * edge_cells + i]);
+      work.density[static_cast<std::size_t>(y) * edge_cells + x] = most;
       all += most;
     }
   for (float& density : work.density)

@@ -72,38 +72,38 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
 LampShares shares_of_clusters(const LightScene& light, const SecondaryEmitters& clusters,
                               const ClusterTree& tree, const SharesByLamp& reflected) {
   LampShares lamps;
-  if (reflected.rows() == 0)
+  if (reflected.rows == 0)
     return lamps;
   lamps.count = light.lamps.count;
   const auto power_of = [&](std::uint32_t cluster) {
-    Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(reflected.cols());
+    std::vector<double> power(reflected.columns, 0.0);
     for (const std::uint32_t e : clusters.elements[cluster])
-      power += light.mesh.area[e] * double{light.mesh.solid[e]} * reflected.row(e).cast<double>();
+      for (std::size_t k = 0; k < power.size(); ++k)
+        power[k] += light.mesh.area[e] * double{light.mesh.solid[e]} * double{reflected[e][k]};
     return power;
   };
-  const auto set_shares = [](const Eigen::RowVectorXd& power, SharesByLamp& shares, std::size_t row) {
-    const Eigen::Index lamp_count = power.size() / 3;
-    for (Eigen::Index band = 0; band < 3; ++band) {
+  const auto set_shares = [](std::span<const double> power, std::span<float> shares) {
+    for (std::size_t band = 0; band < 3; ++band) {
       double sum = 0.0;
-      for (Eigen::Index l = 0; l < lamp_count; ++l)
-        sum += power(3 * l + band);
-      for (Eigen::Index l = 0; l < lamp_count; ++l)
-        shares(static_cast<Eigen::Index>(row), 3 * l + band) =
-            sum > 0.0 ? static_cast<float>(power(3 * l + band) / sum) : 0.0F;
+      for (std::size_t k = band; k < power.size(); k += 3)
+        sum += power[k];
+      for (std::size_t k = band; k < power.size(); k += 3)
+        shares[k] = sum > 0.0 ? static_cast<float>(power[k] / sum) : 0.0F;
     }
   };
-  lamps.of_cluster.resize(std::ssize(clusters.emitters), reflected.cols());
-  lamps.of_node.resize(std::ssize(tree.nodes), reflected.cols());
-  std::vector<Eigen::RowVectorXd> powers;
+  lamps.of_cluster = {.rows = clusters.emitters.size(), .columns = reflected.columns};
+  lamps.of_node = {.rows = tree.nodes.size(), .columns = reflected.columns};
+  std::vector<std::vector<double>> powers;
   for (std::uint32_t c = 0; c < clusters.emitters.size(); ++c) {
     powers.push_back(power_of(c));
-    set_shares(powers.back(), lamps.of_cluster, c);
+    set_shares(powers.back(), lamps.of_cluster[c]);
   }
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
-    Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(reflected.cols());
+    std::vector<double> power(reflected.columns, 0.0);
     for (std::uint32_t k = 0; k < tree.nodes[n].count; ++k)
-      power += powers[tree.order[tree.nodes[n].first + k]];
-    set_shares(power, lamps.of_node, n);
+      std::ranges::transform(power, powers[tree.order[tree.nodes[n].first + k]], power.begin(),
+                             std::plus{});
+    set_shares(power, lamps.of_node[n]);
   }
   return lamps;
 }
@@ -164,7 +164,7 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
                              std::uint32_t seed, PointWorkspace& work, const GatheredRays* before) {
   gather_rays_at(gathering, receiver, seed, before, work);
 
-  work.indirect_by_lamp.assign(gathering.reflected_by_lamp.rows() > 0 ? gathering.light.lamps.count : 0,
+  work.indirect_by_lamp.assign(gathering.reflected_by_lamp.rows > 0 ? gathering.light.lamps.count : 0,
                                Rgb(0.0));
   PointLight light = landed_light(gathering, work.gather.result, work.indirect_by_lamp);
   light.from_clusters = cluster_irradiance(

@@ -26,7 +26,7 @@ struct PointGatheringSettings {
 /// B by ElementId, emission left out, W/m^2; by lamp too where light is told apart.
 struct SentLight {
   SentLight(std::vector<Rgb> sent, const LightByLamp& of_lamps = {})
-      : all(std::move(sent)), by_lamp(of_lamps.cast<float>()) {}
+      : all(std::move(sent)), by_lamp{of_lamps.rows, of_lamps.columns, {of_lamps.values.begin(), of_lamps.values.end()}} {}
   std::vector<Rgb> all;
   SharesByLamp by_lamp;
 };

@@ -15,7 +15,7 @@ struct Block {
   CellId cell = none<CellId>;
 };
 
-struct Candidate {
+struct BrightBlock {
   Block block;
   Rgb radiosity{0.0};
   double noise =
@@ -28,7 +28,7 @@ struct ClusterSearch {
   const std::vector<Rgb>& sent; ///< by ElementId: the reflected radiosity, over holes too
   double threshold;
   double evenness;
-  std::vector<Candidate> found;
+  std::vector<BrightBlock> found;
 };
 
 CellId root_at(const MeshSide& side, int i, int j) {
@@ -107,7 +107,7 @@ void search_sides(ClusterSearch& context) {
   }
 }
 
-Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
+Emitter make_emitter(const LightScene& light, const BrightBlock& candidate) {
   const MeshSide& side = light.mesh.sides[candidate.block.side];
   const Patch& patch = light.surfaces.patches[index(side.patch)];
   const Block& block = candidate.block;
@@ -186,9 +186,9 @@ WorldTree first_worlds(const WorldTree& tree, const MirrorSet& mirrors) {
 }
 
 /// By ElementId: whether one of the clusters has it.
-std::vector<std::uint8_t> owned_by(const ElementMesh& mesh, const std::vector<Candidate>& found) {
+std::vector<std::uint8_t> owned_by(const ElementMesh& mesh, const std::vector<BrightBlock>& found) {
   std::vector<std::uint8_t> owned(mesh.area.size(), 0);
-  for (const Candidate& candidate : found)
+  for (const BrightBlock& candidate : found)
     for_each_element(mesh, candidate.block, [&](std::uint32_t element) { owned[element] = 1; });
   return owned;
 }
@@ -198,12 +198,12 @@ std::vector<std::uint8_t> owned_by(const ElementMesh& mesh, const std::vector<Ca
 /// the sum of A B^2 over what they find, which the variance of a mean over directions goes by.
 void keep_noisiest(const ElementMesh& mesh, const std::vector<Rgb>& sent,
                    const ClusterSettings& settings, std::size_t most,
-                   std::vector<Candidate>& found) {
+                   std::vector<BrightBlock>& found) {
   const std::vector<std::uint8_t> owned = owned_by(mesh, found);
   double of_rays = 0.0, added = 0.0;
   for (std::size_t e = 0; e < sent.size(); ++e)
     of_rays += owned[e] != 0 ? 0.0 : mesh.area[e] * std::pow(largest(sent[e]), 2.0);
-  std::ranges::stable_sort(found, std::greater{}, &Candidate::noise);
+  std::ranges::stable_sort(found, std::greater{}, &BrightBlock::noise);
   found.resize(std::min(found.size(), most));
   for (; !found.empty(); found.pop_back()) {
     added += found.back().noise * found.back().noise;

@@ -8,18 +8,26 @@
 
 #include "scenes/types.h"
 
-#include <Eigen/Core>
-
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace meninas {
 
-/// Light of many places: row i, column 3 l + c is channel c of lamp l, W/m^2. Empty: not asked for.
-using LightByLamp = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-/// The same in floats, for what many rays read.
-using SharesByLamp = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// A row for each of many places; number 3 l + c of a row is that of channel c of lamp l.
+template <typename Number> struct TableByLamp {
+  std::size_t rows = 0, columns = 0;
+  std::vector<Number> values = std::vector<Number>(rows * columns); ///< row by row
+
+  std::span<Number> operator[](std::size_t row) {
+    return {values.data() + row * columns, columns};
+  }
+  std::span<const Number> operator[](std::size_t row) const {
+    return {values.data() + row * columns, columns};
+  }
+};
+using LightByLamp = TableByLamp<double>; ///< W/m^2; empty: not asked for
+using SharesByLamp = TableByLamp<float>; ///< floats, for what many rays read
 
 /// Of the emitters, sides and lights of a Lighting.
 struct LampShares {
@@ -39,7 +47,7 @@ using ArrivedByLamp = std::vector<Rgb>;
 /// Adds what one row of shares is of `arrived`.
 inline void add_shares(const SharesByLamp& shares, std::size_t row, const Rgb& arrived,
                        ArrivedByLamp& sum) {
-  const float* share = shares.data() + static_cast<Eigen::Index>(row) * shares.cols();
+  const std::span<const float> share = shares[row];
   for (std::size_t l = 0; l < sum.size(); ++l)
     sum[l] += Rgb(share[3 * l], share[3 * l + 1], share[3 * l + 2]) * arrived;
 }
@@ -62,5 +70,6 @@ void set_row(LightByLamp& light, std::size_t row, const ArrivedByLamp& values);
 std::vector<Rgb> light_of_lamp(const LightByLamp& light, std::size_t lamp);
 void set_light_of_lamp(LightByLamp& light, std::size_t lamp, const std::vector<Rgb>& values);
 LightByLamp no_light(std::size_t rows, std::size_t lamps);
+LightByLamp& operator+=(LightByLamp& light, const LightByLamp& more);
 
 } // namespace meninas

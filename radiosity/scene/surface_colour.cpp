@@ -16,7 +16,7 @@ namespace {
 /// would take more than `all_points`, they have fewer, down to `min_points`: each is a small part
 /// of what others see of them together.
 constexpr double points_per_element = 64.0, points_per_triangle = 256.0, min_points = 16.0;
-constexpr double all_points = 1 << 21, most_points = 1 << 26;
+constexpr double all_points = 1 << 21, max_points = 1 << 26;
 
 double points_for_each_of(std::size_t count, double wanted) {
   return std::clamp(all_points / double(std::max<std::size_t>(1, count)), min_points, wanted);
@@ -73,7 +73,7 @@ void for_points_of(const Scene& scene, const SurfaceModel& surfaces, const Eleme
       continue;
     const double share = glm::length(area_vector(corners(scene, triangle))) / patch.area;
     const auto count = static_cast<std::uint32_t>(
-        std::clamp(per_element * share * side.element_count, fewest, most_points));
+        std::clamp(per_element * share * side.element_count, fewest, max_points));
     for (std::uint32_t k = 0; k < count; ++k) {
       const auto sample = sobol4(k, hash(index(triangle), 0x7e47));
       const double root = std::sqrt(double{sample[0]});

@@ -39,12 +39,12 @@ LightByLamp gathered_by_lamp(const LightScene& light, const FormFactors& factors
       continue;
     LightByLamp& emission = light.from_source[index(side)] != 0 ? deep : whole;
     for (int band = 0; band < 3; ++band)
-      emission(static_cast<Eigen::Index>(e), 3 * Eigen::Index{lamp} + band) = mesh.emission[e][band];
+      emission[e][3 * std::size_t{lamp} + static_cast<std::size_t>(band)] = mesh.emission[e][band];
   }
 
   LightByLamp gathered = no_light(factors.transport.size, light.lamps.count);
   const auto add = [&](const Transport& transport, const LightByLamp& emission) {
-    if (!transport.columns.empty() && !emission.isZero(0.0))
+    if (!transport.columns.empty() && std::ranges::any_of(emission.values, [](double sent) { return sent != 0.0; }))
       gathered += transport_product(transport, emission);
   };
   add(factors.transport, whole);

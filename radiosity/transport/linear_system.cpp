@@ -55,17 +55,14 @@ std::vector<Value> transport_product(const Transport& transport, const std::vect
 }
 
 LightByLamp transport_product(const Transport& transport, const LightByLamp& x) {
-  LightByLamp product = LightByLamp::Zero(static_cast<Eigen::Index>(transport.size), x.cols());
+  LightByLamp product{.rows = transport.size, .columns = x.columns};
   tbb::parallel_for(std::size_t{0}, transport.size, [&](std::size_t i) {
-    auto row = product.row(static_cast<Eigen::Index>(i));
+    const std::span<double> row = product[i];
     for (std::uint64_t k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k) {
-      const auto sent = x.row(transport.columns[k]);
-      if (transport.bands == 1) {
-        row += double{transport.weights[k]} * sent;
-        continue;
-      }
-      for (Eigen::Index c = 0; c < x.cols(); ++c)
-        row(c) += double{transport.weights[3 * k + static_cast<std::size_t>(c % 3)]} * sent(c);
+      const std::span<const double> sent = x[transport.columns[k]];
+      const float* const weights = &transport.weights[k * static_cast<std::size_t>(transport.bands)];
+      for (std::size_t c = 0; c < row.size(); ++c)
+        row[c] += double{weights[transport.bands == 1 ? 0 : c % 3]} * sent[c];
     }
   });
   return product;

@@ -255,6 +255,36 @@ BatchJob job_at(const Place& place, const std::optional<Place>& defaults, std::s
 
 std::string_view batch_schema() { return batch_schema_text; }
 
+std::string batch_schema(std::span<const SettingHelp> settings) {
+  auto schema = Json::parse(batch_schema());
+  auto& properties = schema["$defs"]["settings"]["properties"];
+  for (const SettingHelp& setting : settings) {
+    if (setting.name == "camera" || setting.name == "mode") {
+      continue; // a job has them itself
+    }
+    Json property{{"description", setting.description}};
+    if (setting.takes.empty()) {
+      property["type"] = {"boolean", "null"};
+    } else if (setting.takes.starts_with('[')) {
+      property["type"] = {"boolean", "string", "number", "null"};
+    } else if (setting.takes.find('|') != std::string::npos) {
+      property["enum"] = Json::array();
+      std::string_view names = setting.takes;
+      for (auto bar = names.find('|'); !names.empty(); bar = names.find('|')) {
+        property["enum"].push_back(std::string(names.substr(0, bar)));
+        names.remove_prefix(bar == std::string_view::npos ? names.size() : bar + 1);
+      }
+      property["enum"].push_back(nullptr);
+    } else if (setting.repeatable) {
+      property["anyOf"] = {{{"type", {"string", "null"}}}, {{"$ref", "#/$defs/texts"}}};
+    } else {
+      property["type"] = {"string", "number", "null"};
+    }
+    properties[setting.name] = property;
+  }
+  return schema.dump(2) + '\n';
+}
+
 std::vector<BatchJob> read_batch(const std::filesystem::path& file, const SettingsParser& parse) {
   const Json json = parse_json_file(file);
   const Place root{json, file, ""};

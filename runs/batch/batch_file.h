@@ -18,6 +18,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -51,5 +52,7 @@ std::vector<BatchJob> read_batch(const std::filesystem::path& file, const Settin
 
 /// The schema's text.
 std::string_view batch_schema();
+/// The schema with these options as settings of a job, so that editors know them too.
+std::string batch_schema(std::span<const SettingHelp> settings);
 
 } // namespace meninas

@@ -12,7 +12,7 @@ namespace meninas {
 
 namespace {
 
-double mean_of(const glm::vec3& x) { return double{x.r + x.g + x.b} / 3.0; }
+double mean_channel(const glm::vec3& x) { return double{x.r + x.g + x.b} / 3.0; }
 
 /// By ElementId: which of the page.
 std::vector<std::uint32_t> page_numbers(const ShownMesh& mesh) {
@@ -62,9 +62,9 @@ std::string FactorRows::row(const ShownMesh& mesh, std::size_t page_element) {
                             {"scale", scale},
                             {"direct", direct},
                             {"mirrored", mirrored},
-                            {"escaped", mean_of(ends.escaped_light)},
-                            {"absorbed", mean_of(ends.mirror_absorbed)},
-                            {"black", mean_of(ends.black_light)},
+                            {"escaped", mean_channel(ends.escaped_light)},
+                            {"absorbed", mean_channel(ends.mirror_absorbed)},
+                            {"black", mean_channel(ends.black_light)},
                             {"rows", table.rows},
                             {"columns", table.columns},
                             {"bytes", table.bytes_each}};

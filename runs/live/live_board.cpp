@@ -13,11 +13,9 @@ namespace meninas {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t kept_states = 4;
 
-json array_of(const Vec3& x) { return json::array({x.x, x.y, x.z}); }
+nlohmann::json array_of(const Vec3& x) { return nlohmann::json::array({x.x, x.y, x.z}); }
 
 /// The room's scale as long as halves hold the light well by it; else one of its own.
 float scale_for(std::span<const glm::vec3> irradiance, float before) {
@@ -35,8 +33,8 @@ double shown_top(std::vector<glm::vec3> irradiance, const Rgb& ambient) {
   return top_irradiance(irradiance);
 }
 
-std::string text_of(const json& object) {
-  return object.dump(-1, ' ', false, json::error_handler_t::replace);
+std::string text_of(const nlohmann::json& object) {
+  return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace
@@ -63,7 +61,7 @@ void LiveBoard::changed(const StatusChange& change) {
 void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh, const StatusChange& change) {
   const auto state = state_of(light, std::nullopt);
   state->number = state_number_ + 1; // nobody else writes
-  const json head{{"room", room_number_ + 1},
+  const nlohmann::json head{{"room", room_number_ + 1},
                   {"state", state->number},
                   {"ambient", array_of(light.ambient)},
                   {"middle", array_of(middle)}};
@@ -112,7 +110,7 @@ LiveStatus LiveBoard::status() const {
 }
 
 std::string LiveBoard::announcement() const {
-  const auto known = [](const auto& value) { return value ? json(*value) : json(nullptr); };
+  const auto known = [](const auto& value) { return value ? nlohmann::json(*value) : nlohmann::json(nullptr); };
   return text_of({{"room", room_number_},
                   {"state", states_.empty() ? 0 : states_.back()->number},
                   {"stage", status_.stage},

@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using nlohmann::json;
-
 /// RFC 3986, section 2.1.
 std::string without_percents(const std::string& text) {
   std::string plain;
@@ -53,14 +51,14 @@ std::vector<fs::path> files_of_scene(const fs::path& scene, const RunSettings& s
     return files;
   std::ifstream in(scene, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const json root = json::parse(text, nullptr, false);
+  const nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
   if (!root.is_object())
     return files;
   for (const char* list : {"buffers", "images"}) {
     const auto members = root.find(list);
     if (members == root.end() || !members->is_array())
       continue;
-    for (const json& member : *members)
+    for (const nlohmann::json& member : *members)
       if (const auto uri = member.is_object() ? member.find("uri") : member.end();
           uri != member.end() && uri->is_string() && !uri->get_ref<const std::string&>().starts_with("data:"))
         files.push_back(scene.parent_path() / without_percents(*uri));

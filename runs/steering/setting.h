@@ -18,6 +18,13 @@ struct Setting {
   bool operator==(const Setting&) const = default;
 };
 
+/// An option that may be a setting, as its help says it.
+struct SettingHelp {
+  std::string name, description;
+  std::string takes; ///< what its value looks like, or names joined by '|'; empty for a flag
+  bool repeatable = false;
+};
+
 /// Puts settings into a request. Throws UsageError, `NAME: WHAT` where one setting is to blame.
 /// The command line's own parser is one.
 using SettingsParser =

@@ -4,10 +4,10 @@
 
 namespace meninas::gltf {
 
+namespace rule_table { // short names, for the table alone
+
 using enum Kind;
 using enum Presence;
-
-namespace {
 
 constexpr Rule name_rule{.name = "name", .kind = text};
 
@@ -373,8 +373,8 @@ constexpr Rule root[] = {
     {.name = "scene", .kind = index, .target = "scenes"},
 };
 
-} // namespace
+} // namespace rule_table
 
-std::span<const Rule> root_rules() { return root; }
+std::span<const Rule> root_rules() { return rule_table::root; }
 
 } // namespace meninas::gltf

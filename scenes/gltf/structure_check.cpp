@@ -9,6 +9,8 @@
 
 namespace meninas::gltf {
 
+namespace structure { // where kinds have their short names
+
 using enum Kind;
 using enum Presence;
 
@@ -154,9 +156,10 @@ private:
 };
 
 } // namespace
+} // namespace structure
 
 void check_structure(const std::string& file, const Json& root) {
-  StructureCheck(file, root).check_object({nullptr, "", std::nullopt, &root}, root_rules());
+  structure::StructureCheck(file, root).check_object({nullptr, "", std::nullopt, &root}, root_rules());
 }
 
 } // namespace meninas::gltf

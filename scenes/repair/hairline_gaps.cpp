@@ -15,7 +15,7 @@
 namespace meninas {
 namespace {
 
-constexpr double widest = 4e-4;  ///< of the radius of the detail
+constexpr double widest_gap = 4e-4;  ///< of the radius of the detail
 constexpr double longer = 20.0;  ///< than wide
 constexpr double steepest = 0.5; ///< sine of the angle between the faces, at least
 /// Of edges beside faces; in scenes of very many loose faces the first ones are closed.
@@ -45,7 +45,7 @@ class GapCloser {
 public:
   explicit GapCloser(Scene& scene)
       : scene_(scene), precision_(scene), topology_(find_topology(scene, precision_)),
-        widest_(widest * precision_.detail().radius) {}
+        widest_(widest_gap * precision_.detail().radius) {}
 
   std::vector<ClosedJoint> close() {
     find_loose_edges();

@@ -11,7 +11,7 @@ namespace meninas {
 namespace {
 
 // Among faces that all lie on one another all pairs are near ones; what is looked at ends there.
-constexpr std::size_t max_pairs_tried = 20'000'000;
+constexpr std::size_t max_overlaps_tried = 20'000'000;
 
 /// A triangle in the coordinates of its plane.
 struct FlatFace {
@@ -122,7 +122,7 @@ CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces)
     const auto faces = faces_of_plane(scene, surfaces.planes[plane], in_plane[plane]);
     for (std::size_t k = 0; k < faces.size(); ++k) {
       for (std::size_t other = k + 1;
-           other < faces.size() && faces[other].low.x < faces[k].high.x && tried < max_pairs_tried;
+           other < faces.size() && faces[other].low.x < faces[k].high.x && tried < max_overlaps_tried;
            ++other, ++tried) {
         if (overlap(faces[k], faces[other])) {
           const auto [first, second] = std::minmax(faces[k].triangle, faces[other].triangle);

@@ -67,6 +67,19 @@ TEST(Help, ShowsWhatMattersFirst) {
   }
 }
 
+TEST(Help, ShowsTenOptionsAtMostOfCommandsThatHaveMany) {
+  const TemporaryFolder folder;
+  for (const char* command : {"render", "solve", "walk", "bake", "view", "plan", "compare"}) {
+    const std::string page = run_program(folder.path(), {command, "-h"}).out;
+    std::istringstream lines(page);
+    int options = 0;
+    for (std::string line; std::getline(lines, line);)
+      options += line.starts_with("  -") && !line.starts_with("  -h,");
+    EXPECT_GE(options, 3) << page;
+    EXPECT_LE(options, 10) << page;
+  }
+}
+
 const std::vector<std::string> commands{"render", "solve",   "plan",  "compare",    "batch",
                                         "diff",   "regress", "trade", "formfactors", "walk", "bake",
                                         "merge"};

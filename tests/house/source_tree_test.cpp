@@ -43,6 +43,12 @@ TEST(SourceTree, NamesAreThoseOfTheGlossary) {
               ElementsAre(HasSubstr("mirror/a.h:2: KeptRays")));
 }
 
+TEST(SourceTree, TheArchitectureHasTwoPassesAndTheNotesTheRest) {
+  constexpr std::uintmax_t most = 15 * 1024; // what is read before the code, in one sitting
+  EXPECT_LE(std::filesystem::file_size(std::filesystem::path(test::source_dir()) / "ARCHITECTURE.md"), most)
+      << "rows of equations that are not those of the two passes belong to docs/notes/equations.md";
+}
+
 TEST(SourceTree, TheScannerReadsThisTree) {
   std::vector<std::string> paths;
   for (const SourceFile& source : read_source_tree(test::source_dir())) {

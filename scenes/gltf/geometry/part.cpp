@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max();
 
 template <typename T>
-void repeat(std::vector<T>& values, std::uint32_t k) {
+void append_copy(std::vector<T>& values, std::uint32_t k) {
   if (values.empty())
     return;
   const T value = values[k];
@@ -43,9 +43,9 @@ public:
 
 private:
   void divide(std::uint32_t vertex) {
-    repeat(part_.positions, vertex);
-    repeat(part_.attributes, vertex);
-    repeat(part_.normals.values, vertex);
+    append_copy(part_.positions, vertex);
+    append_copy(part_.attributes, vertex);
+    append_copy(part_.normals.values, vertex);
     tangents_.emplace_back(0.0F);
     next_.push_back(no_corner);
   }

@@ -32,7 +32,7 @@ bool follow_joints(const PrimitivePlace& at, std::size_t node, Skins& skins, Pla
                             no_normals, no_tangents);
 }
 
-void place(const PlacedNode& node, const Document& document, const PlacedPrimitive& part,
+void add_placed(const PlacedNode& node, const Document& document, const PlacedPrimitive& part,
            std::vector<PlacedPrimitive>& all) {
   const bool instanced = find(element(document.root, "nodes", node.index),
                               {"extensions", "EXT_mesh_gpu_instancing"}) != nullptr;
@@ -71,7 +71,7 @@ std::vector<PlacedPrimitive> placed_primitives(const Document& document,
       if (follow_joints(at, node.index, skins, *part))
         all.push_back(std::move(*part));
       else
-        place(node, document, *part, all);
+        add_placed(node, document, *part, all);
     });
   }
   return all;
