@@ -63,7 +63,7 @@ function makePainter(gl, data, room, textures) {
         runs.filter(run => run.group === group).forEach(run => addRun(world, run));
         if (g === 0 && world.depth > 0 && room.backs.count > 0)
           for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
-        if (g === 0) stream.sky();
+        if (g === 0) stream.sky(world);
         return { group, ...stream.segment() };
       });
       for (const child of world.children.filter(c => c.isBlurred)) {
@@ -75,7 +75,7 @@ function makePainter(gl, data, room, textures) {
     stream.end();
   }
   function addRun(world, run, add = stream.add) {
-    for (const part of run.parts) if (mayShow(world, part)) add(part.first, part.count);
+    for (const part of run.parts) if (mayShow(world, part)) add(world, part.first, part.count);
   }
   /// Panes from far to near, those together that cover nothing of one another on the screen.
   function panesOf(world) {
@@ -109,7 +109,6 @@ function makePainter(gl, data, room, textures) {
     gl.uniform3fv(at.pixelUp, times(camera.up, 2 * camera.half / options.height));
     gl.uniform1f(at.depthFactor, 2 * camera.far * camera.near / (camera.far - camera.near));
     gl.uniform4fv(at.clip, mirror ? [...mirror.normal, mirror.offset + 2e-6 * room.size] : [0, 0, 0, -1]);
-    gl.frontFace(world.depth % 2 ? gl.CW : gl.CCW);
     scissor(world.rectangle, target);
     gl.stencilFuncSeparate(gl.FRONT, gl.EQUAL, mark, 255);
     gl.stencilFuncSeparate(gl.BACK, gl.ALWAYS, mark, 255);
