@@ -114,6 +114,13 @@ json DrivenBrowser::run(const std::string& page, const std::string& use) {
   return answer.at("result").value("value", json(nullptr));
 }
 
+void DrivenBrowser::prefer(const std::string& page, const std::vector<std::pair<std::string, std::string>>& features) {
+  json all = json::array();
+  for (const auto& [name, value] : features)
+    all.push_back({{"name", name}, {"value", value}});
+  call("Emulation.setEmulatedMedia", {{"features", all}}, page);
+}
+
 void DrivenBrowser::save_into(const std::filesystem::path& folder) {
   call("Browser.setDownloadBehavior", {{"behavior", "allow"}, {"downloadPath", folder.string()}});
 }

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace meninas::test {
 
@@ -21,6 +23,8 @@ public:
   std::string open(const std::string& address);
   /// What the body of an async function returns in that page; null, with a failure, where it throws.
   nlohmann::json run(const std::string& page, const std::string& use);
+  /// What someone prefers, such as prefers-color-scheme: dark; with pairs of names and values.
+  void prefer(const std::string& page, const std::vector<std::pair<std::string, std::string>>& features);
   /// Files that pages save go there from now on.
   void save_into(const std::filesystem::path& folder);
   void close(const std::string& page);

@@ -13,7 +13,8 @@
 const programsFor = (needs, transform) => [[roomVertex(needs), roomFragment(needs)], [wholeVertex, screenFragment(transform)]];
 
 /// A frame of a room of two triangles, which is not kept: what is behind the eye, in a mirror before it. Software that draws
-/// compiles programs when they first draw, in threads of its own: it goes on with that while the room is read.
+/// compiles programs when they first draw, in threads of its own: it goes on with that while the room is read. Nothing is
+/// asked that would have to wait for them.
 function paintNothing(gl, data) {
   const mirror = [[-1, -1, -1], [1, -1, -1], [0, 1, -1]], back = [[1, -1, 1], [-1, -1, 1], [0, 1, 1]];
   const bare = { ...data, step: 1, batches: [[sections.single, -1, -1, 0, -1, 0, 1], [sections.single, -1, -1, -1, -1, 1, 1]],
@@ -23,7 +24,7 @@ function paintNothing(gl, data) {
   for (const name of ["place", "colour"]) if (data.tables.some(table => table.name === name)) tables[name] = new Int32Array(24);
   const room = Object.assign(readRoom(bare, tables), { needs: needsOf(data) }), painter = makePainter(gl, bare, room, []);
   painter.paint({ eye: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1], half: 2, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size },
-    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, most: 2, exposure: 0 });
+    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, samples: 1, most: 2, exposure: 0 });
   gl.clear(gl.COLOR_BUFFER_BIT);
   gl.flush();
   painter.free();
@@ -63,7 +64,7 @@ function makePainter(gl, data, room, textures) {
         runs.filter(run => run.group === group).forEach(run => addRun(world, run));
         if (g === 0 && world.depth > 0 && room.backs.count > 0)
           for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
-        if (g === 0) stream.sky();
+        if (g === 0) stream.sky(world);
         return { group, ...stream.segment() };
       });
       for (const child of world.children.filter(c => c.isBlurred)) {
@@ -75,7 +76,7 @@ function makePainter(gl, data, room, textures) {
     stream.end();
   }
   function addRun(world, run, add = stream.add) {
-    for (const part of run.parts) if (mayShow(world, part)) add(part.first, part.count);
+    for (const part of run.parts) if (mayShow(world, part)) add(world, part.first, part.count);
   }
   /// Panes from far to near, those together that cover nothing of one another on the screen.
   function panesOf(world) {
@@ -109,7 +110,6 @@ function makePainter(gl, data, room, textures) {
     gl.uniform3fv(at.pixelUp, times(camera.up, 2 * camera.half / options.height));
     gl.uniform1f(at.depthFactor, 2 * camera.far * camera.near / (camera.far - camera.near));
     gl.uniform4fv(at.clip, mirror ? [...mirror.normal, mirror.offset + 2e-6 * room.size] : [0, 0, 0, -1]);
-    gl.frontFace(world.depth % 2 ? gl.CW : gl.CCW);
     scissor(world.rectangle, target);
     gl.stencilFuncSeparate(gl.FRONT, gl.EQUAL, mark, 255);
     gl.stencilFuncSeparate(gl.BACK, gl.ALWAYS, mark, 255);
@@ -222,12 +222,12 @@ function makePainter(gl, data, room, textures) {
   }
 
   function bindTarget(place) {
-    const { width, height } = options;
-    if (targets[place] && (targets[place].width !== width || targets[place].height !== height)) {
+    const { width, height, samples } = options, is = targets[place];
+    if (is && (is.width !== width || is.height !== height || is.asked !== samples)) {
       freeTarget(gl, targets[place]);
       targets[place] = null;
     }
-    targets[place] = targets[place] || makeTarget(gl, width, height);
+    targets[place] = targets[place] || makeTarget(gl, width, height, samples);
     gl.bindFramebuffer(gl.FRAMEBUFFER, targets[place].drawn);
     gl.useProgram(roomProgram.program);
     return targets[place];
@@ -252,7 +252,7 @@ function makePainter(gl, data, room, textures) {
     bind(4, scale);
     if (room.needs.bodies) gl.uniform4fv(at["bodies[0]"], bodyNumbers());
     gl.uniform1i(at.falseColours, options.falseColours);
-    const facets = options.facets || 8, block = options.block || 1; // of 48 facets a quarter: more would reach below the horizon
+    const { facets = 8, block = 1 } = options; // of 48 facets a quarter: more would reach below the horizon
     gl.uniform1i(at.facets, facets);
     gl.uniform1f(at.between, 0.25 * Math.sqrt(48 / facets / block));
     gl.uniform1f(at.lightScale, room.instead ? 1 : data.light);
@@ -329,7 +329,7 @@ function makePainter(gl, data, room, textures) {
   /// The room alone, for a probe.
   function paintFace(camera, without) {
     const place = 4, root = rootWorld(camera);
-    options = { width: probeSize, height: probeSize, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
+    options = { width: probeSize, height: probeSize, samples: mostSamples, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
     plan([root]);
     begin();
     drawTrees([root], place);
@@ -344,7 +344,7 @@ function makePainter(gl, data, room, textures) {
     return probe !== undefined;
   }
 
-  /// `wanted`: width and height in pixels of the screen, block, exposure, lines, falseColours, mirrors,
+  /// `wanted`: width and height in pixels of the screen, block (pixels drawn along each side of one), samples of each, exposure, lines, falseColours, mirrors,
   /// and how many worlds at most. Returns figures of the frame.
   function paint(camera, wanted) {
     options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block, falseColours: wanted.falseColours || Boolean(room.instead) };
@@ -371,5 +371,7 @@ function makePainter(gl, data, room, textures) {
       .forEach(texture => gl.deleteTexture(texture));
     [array, nothing].forEach(made => gl.deleteVertexArray(made));
   }
-  return { paint, fillNextProbe, free };
+  /// After a frame: throws where the browser cannot draw into such pictures.
+  function check() { targets.forEach(target => target && !target.isChecked && checkTarget(gl, target)); }
+  return { paint, check, fillNextProbe, free };
 }

@@ -1,6 +1,9 @@
 // What WebGL 2 is asked for: programs, tables as vertex arrays, textures, and pictures to draw into.
 "use strict";
 
+/// Of a pixel.
+const mostSamples = 4;
+
 /// Throws a sentence for the user where the browser cannot do it.
 function openGpu(canvas) {
   const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
@@ -12,10 +15,14 @@ function openGpu(canvas) {
 }
 
 /// Compiled once: it takes as long as drawing many frames where software draws. All are begun before one is asked for.
-function makePrograms(gl, texts) {
+function beginPrograms(gl, texts) {
   const known = gl.programs = gl.programs || new Map();
   for (const text of texts) if (!known.has(text.join(""))) known.set(text.join(""), beginProgram(gl, text));
-  const programs = texts.map(text => known.get(text.join("")));
+  gl.flush();
+  return texts.map(text => known.get(text.join("")));
+}
+function makePrograms(gl, texts) {
+  const programs = beginPrograms(gl, texts);
   for (const made of programs) made.at = made.at || placesOfUniforms(gl, made);
   return programs;
 }
@@ -186,12 +193,12 @@ function setSky(gl, sky, factor, ofSun) {
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
 }
 
-/// A picture of linear light with depth and stencil, several samples to a pixel, and the texture that
+/// A picture of linear light with depth and stencil, `asked` samples to a pixel, and the texture that
 /// their means go to.
-function makeTarget(gl, width, height) {
-  const samples = Math.min(4, gl.getInternalformatParameter(gl.RENDERBUFFER, gl.RGBA16F, gl.SAMPLES)[0] || 0);
-  const target = { width, height, drawn: gl.createFramebuffer(), mean: gl.createFramebuffer(), texture: gl.createTexture(),
-    parts: [gl.createRenderbuffer(), gl.createRenderbuffer()] };
+function makeTarget(gl, width, height, asked) {
+  const samples = asked > 1 ? Math.min(asked, gl.getInternalformatParameter(gl.RENDERBUFFER, gl.RGBA16F, gl.SAMPLES)[0] || 0) : 0;
+  const target = { width, height, asked, drawn: gl.createFramebuffer(), mean: gl.createFramebuffer(), texture: gl.createTexture(),
+    parts: [gl.createRenderbuffer(), gl.createRenderbuffer()], isChecked: false };
   gl.bindTexture(gl.TEXTURE_2D, target.texture);
   gl.texStorage2D(gl.TEXTURE_2D, Math.floor(Math.log2(Math.max(width, height))) + 1, gl.RGBA16F, width, height);
   setFilters(gl, gl.NEAREST, gl.NEAREST);
@@ -203,9 +210,14 @@ function makeTarget(gl, width, height) {
     gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, target.parts[k]);
   });
-  if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost())
-    throw new Error("This page needs a stencil beside 16-bit floats, which this browser's WebGL 2 does not give.");
   return target;
+}
+/// The answer waits for all that has been asked of the graphics card: it is asked for after a frame.
+function checkTarget(gl, target) {
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.drawn);
+  target.isChecked = gl.checkFramebufferStatus(gl.FRAMEBUFFER) === gl.FRAMEBUFFER_COMPLETE;
+  if (!target.isChecked && !gl.isContextLost())
+    throw new Error("This page needs a stencil beside 16-bit floats, which this browser's WebGL 2 does not give.");
 }
 
 function freeTarget(gl, target) {

@@ -1,15 +1,18 @@
 // The page: shows its data, draws when something has changed, and does what keys ask for.
 "use strict";
 
-/// Rays to a rough surface's pixel: of pictures, at rest, while someone moves.
-const facetsFor = block => block > 2 ? 96 : block > 1 ? 24 : 12;
+/// How each pixel of the screen is drawn: by so many along each side, and so many samples of each of those; and how many rays a
+/// rough surface follows for one. Coarse pictures, the first of all, are of four pixels in place of four samples: as smooth, and
+/// software that draws compiles less for them.
+const ways = { coarse: { block: 2, samples: 1, facets: 3 }, plain: { block: 1, samples: mostSamples, facets: 12 },
+  fine: { block: 2, samples: mostSamples, facets: 24 }, shot: { block: 4, samples: mostSamples, facets: 96 } };
 
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
-/// The room of some data, and its images for the graphics card. `change` gets its tables first.
-async function readShown(gl, data, change) {
-  const tables = await readTables(data);
+/// The room of some data, and its images for the graphics card. `change` gets its tables first, and `meanwhile` is done before.
+async function readShown(gl, data, change, meanwhile) {
+  const tables = await readTables(data, meanwhile);
   if (change) change(tables);
   const room = readRoom(data, tables), images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
@@ -26,15 +29,15 @@ async function readShown(gl, data, change) {
 ///   redraw()       after a change of something beside the camera
 /// `told.tables` may change the tables of a room before it is shown.
 async function openPage(data, told = {}) {
-  const canvas = element("view"), gl = openGpu(canvas);
-  paintNothing(gl, data);
-  const { room, textures } = await readShown(gl, data, told.tables);
+  const canvas = element("view"), gl = openGpu(canvas), asked = readAddress();
+  beginPrograms(gl, programsFor(needsOf(data), data.transform));
+  const { room, textures } = await readShown(gl, data, told.tables, () => paintNothing(gl, data));
   let painter = makePainter(gl, data, room, textures);
   const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
-  const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
+  const mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
     most: Math.ceil(clamped(8e5 / room.tables.triangles.length, 1, 8)), coarse: true, slow: true };
-  let waiting = false, moving = true, last = 0, rest = 0;
+  let waiting = true, moving = true, last = 0, rest = 0;
 
   function goToCamera(number) {
     shows.camera = number;
@@ -66,20 +69,22 @@ async function openPage(data, told = {}) {
     const ratio = Math.min(devicePixelRatio || 1, 2) / (coarse ? 3 : 1);
     return [Math.max(1, Math.round(canvas.clientWidth * ratio)), Math.max(1, Math.round(canvas.clientHeight * ratio))];
   }
-  function paintNow(block, most, coarse = false) {
+  function paintNow(way, most, coarse = false) {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
+    let { block } = way;
     while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    const figures = painter.paint(motion.view(width / height), { ...shows, width, height, block, most, facets: facetsFor(block), exposure: motion.state.exposure });
+    const figures = painter.paint(motion.view(width / height), { ...shows, ...way, width, height, block, most, exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
+    painter.check();
     return { ...figures, milliseconds: performance.now() - before };
   }
   function frame(now) {
     waiting = false;
     const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
     last = now;
-    const figures = moving ? paintNow(1, shows.most, shows.coarse)
-      : paintNow(shows.slow ? 1 : 2, Math.min(mostWorlds, 4 * shows.most));
+    const figures = moving ? paintNow(shows.coarse ? ways.coarse : ways.plain, shows.most, shows.coarse)
+      : paintNow(shows.slow ? ways.plain : ways.fine, Math.min(mostWorlds, 4 * shows.most));
     if (moving) keepPace(figures);
     else shows.slow = figures.milliseconds > 4 * slowFrame;
     // At rest there is time for more worlds.
@@ -108,11 +113,12 @@ async function openPage(data, told = {}) {
       else if (milliseconds < 0.1 * slowFrame) shows.coarse = false;
     }
   }
+  function drawFrame(now) { try { frame(now); } catch (problem) { showProblem(problem); } }
   function askForFrame(isMoving) {
     moving = moving && waiting ? true : isMoving;
     if (waiting || asked.shot) return;
     waiting = true;
-    requestAnimationFrame(now => { try { frame(now); } catch (problem) { showProblem(problem); } });
+    requestAnimationFrame(drawFrame);
   }
   function redraw() { askForFrame(true); }
   function moved() {
@@ -213,10 +219,13 @@ async function openPage(data, told = {}) {
 
   followAddress();
   const page = { keys, showInstead, triangleAtCursor, takeRoom, takeLight, redraw, motion, shows, canvas, room, rays };
-  if (!asked.shot) return page;
+  if (!asked.shot) {
+    drawFrame(performance.now());
+    return page;
+  }
   canvas.style.width = canvas.style.height = "auto";
   for (let k = 0; k < mostProbes && painter.fillNextProbe();) ++k;
-  const figures = paintNow(4, mostWorldsOfShot);
+  const figures = paintNow(ways.shot, mostWorldsOfShot);
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");
   return page;

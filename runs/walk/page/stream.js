@@ -6,12 +6,15 @@
 /// Points of windows in a frame. Where they do not fit beside what the worlds to come need, a world's windows are as one.
 const mostWindowPoints = 32768, pointsOfOne = 16;
 
-/// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows.
-function placesBeside({ tables, backs }) {
+/// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows. By way of an odd number
+/// of mirrors triangles are seen the other way round, and are there that way, so that fronts are fronts in every world: what
+/// is a front is a part of what software that draws compiles.
+function placesBeside({ tables, backs, mirrors }) {
   const vertices = tables.points.length / 3, triangles = tables.triangles.length / 3;
   const sky = vertices + backs.of.length, window = sky + 8;
-  return { vertices, back: vertices, sky, window, all: window + mostWindowPoints,
-    backTriangle: triangles, skyTriangle: triangles + backs.count, windowTriangle: triangles + backs.count + 12 };
+  const rows = triangles + backs.count + 12;
+  return { vertices, back: vertices, sky, window, all: window + mostWindowPoints, backTriangle: triangles, skyTriangle: triangles + backs.count,
+    rows, windowTriangle: mirrors.length ? 2 * rows : rows };
 }
 
 /// The eight corners of a cube, and its squares as two triangles each, their fronts inwards.
@@ -47,18 +50,24 @@ function makeStream(gl, room, positions) {
   fixed.set(tables.triangles);
   for (let k = 0; k < backs.corners.length; ++k) fixed[3 * places.backTriangle + k] = places.back + backs.corners[k];
   cubeTriangles.forEach((corner, k) => { fixed[3 * places.skyTriangle + k] = places.sky + corner; });
+  for (let k = 0, to = 3 * places.rows; to < fixed.length; k += 3, to += 3) {
+    fixed[to] = fixed[k + 1];
+    fixed[to + 1] = fixed[k];
+    fixed[to + 2] = fixed[k + 2];
+  }
   for (const buffer of [drawn, all]) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer); // what they are for is told by this
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * mostWindowPoints), gl.STATIC_DRAW);
   gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 0, fixed);
   let ranges, count, from, points, fans, capacity = 0;
 
   function begin() { [ranges, count, from, points, fans] = [[], 0, 0, [], []]; }
-  function add(first, number) {
+  function addRow(first, number) {
     const last = ranges[ranges.length - 1];
     if (last && last.first + last.number === first) last.number += number;
     else ranges.push({ first, number });
     count += number;
   }
+  function add(world, first, number) { addRow(world.depth % 2 ? places.rows + first : first, number); }
   /// What is seen of a world, of so many still to come: backs of triangles there, so that they mark the stencil.
   function window(world, size, toCome) {
     let polygons = windowsOnScreen(world, size);
@@ -68,8 +77,8 @@ function makeStream(gl, room, positions) {
     for (const polygon of polygons) {
       const base = places.window + points.length / 3, first = fans.length / 3;
       for (const [x, y] of polygon) points.push(x, y, 1);
-      for (let k = 2; k < polygon.length; ++k) fans.push(base, ...(world.depth % 2 ? [base + k - 1, base + k] : [base + k, base + k - 1]));
-      add(places.windowTriangle + first, fans.length / 3 - first);
+      for (let k = 2; k < polygon.length; ++k) fans.push(base, base + k, base + k - 1);
+      addRow(places.windowTriangle + first, fans.length / 3 - first);
     }
   }
   /// What has been added since the last one.
@@ -91,6 +100,6 @@ function makeStream(gl, room, positions) {
       to += number;
     }
   }
-  return { begin, window, add, segment, end, drawn, backs: (first, number) => add(places.backTriangle + first, number),
-    sky: () => add(places.skyTriangle, 12), free: () => [all, drawn].forEach(buffer => gl.deleteBuffer(buffer)) };
+  return { begin, window, add, segment, end, drawn, backs: (world, first, number) => add(world, places.backTriangle + first, number),
+    sky: world => add(world, places.skyTriangle, 12), free: () => [all, drawn].forEach(buffer => gl.deleteBuffer(buffer)) };
 }

@@ -10,7 +10,7 @@ function bytesOf(base64) {
 
 async function inflated(bytes) {
   if (typeof DecompressionStream === "undefined") throw new Error("This page needs a newer browser: this one cannot unpack its data.");
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -41,9 +41,10 @@ function halvesOfTable(table) {
   return halves;
 }
 
-/// The tables of the page by name, those of light as bits of halves.
-async function readTables(data) {
+/// The tables of the page by name, those of light as bits of halves. `meanwhile` is done once they are inflated.
+async function readTables(data, meanwhile = () => {}) {
   const bytes = await inflated(bytesOf(data.packed)), tables = {};
+  meanwhile();
   let place = 0;
   for (const table of data.tables) {
     const values = readTable(bytes, place, table);
