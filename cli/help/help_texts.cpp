@@ -76,7 +76,13 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
       {"bake", {"output", "lightmap-size", "direct", "solution", "quality", "elements", "background"}},
       {"view", {"port", "no-open", "paused", "quality", "exposure", "elements", "solver", "background"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
-      {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
+      {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}},
+      {"batch",
+       {"output", "resume", "dry-run", "only", "shard", "memory-limit", "cache", "junit", "schema"}},
+      {"diff", {"output", "heat", "layer", "json", "max-rmse", "max-relmse", "min-ssim", "max-flip"}},
+      {"trade", {"output", "reference", "budget", "camera", "size", "background"}},
+      {"formfactors",
+       {"from", "to", "all", "json", "method", "sides", "accuracy", "rays", "mirror-depth"}}};
   return options;
 }
 

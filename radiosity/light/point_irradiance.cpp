@@ -4,6 +4,7 @@
 #include "scenes/sampling.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numbers>
 
