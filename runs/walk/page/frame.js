@@ -24,7 +24,7 @@ function paintNothing(gl, data) {
   for (const name of ["place", "colour"]) if (data.tables.some(table => table.name === name)) tables[name] = new Int32Array(24);
   const room = Object.assign(readRoom(bare, tables), { needs: needsOf(data) }), painter = makePainter(gl, bare, room, []);
   painter.paint({ eye: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1], half: 2, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size },
-    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, samples: 1, most: 2, exposure: 0 });
+    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, samples: coarseWay(room.needs).samples, most: 2, exposure: 0 });
   gl.clear(gl.COLOR_BUFFER_BIT);
   gl.flush();
   painter.free();

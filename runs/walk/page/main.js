@@ -3,9 +3,11 @@
 
 /// How each pixel of the screen is drawn: by so many along each side, and so many samples of each of those; and how many rays a
 /// rough surface follows for one. Coarse pictures, the first of all, are of four pixels in place of four samples: as smooth, and
-/// software that draws compiles less for them.
-const ways = { coarse: { block: 2, samples: 1, facets: 3 }, plain: { block: 1, samples: mostSamples, facets: 12 },
+/// software that draws compiles less for them; but where the shader of a room is long, four pixels take longer.
+const ways = { coarse: { block: 2, samples: 1, facets: 12 }, plain: { block: 1, samples: mostSamples, facets: 12 },
   fine: { block: 2, samples: mostSamples, facets: 24 }, shot: { block: 4, samples: mostSamples, facets: 96 } };
+
+const coarseWay = ({ bodies, rough }) => bodies || rough ? ways.plain : ways.coarse;
 
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
@@ -83,7 +85,7 @@ async function openPage(data, told = {}) {
     waiting = false;
     const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
     last = now;
-    const figures = moving ? paintNow(shows.coarse ? ways.coarse : ways.plain, shows.most, shows.coarse)
+    const figures = moving ? paintNow(shows.coarse ? coarseWay(room.needs) : ways.plain, shows.most, shows.coarse)
       : paintNow(shows.slow ? ways.plain : ways.fine, Math.min(mostWorlds, 4 * shows.most));
     if (moving) keepPace(figures);
     else shows.slow = figures.milliseconds > 4 * slowFrame;
