@@ -25,14 +25,6 @@ std::span<const ElementVertexId> corners_of(const ElementMesh& mesh, const MeshS
   return std::span(mesh.corners[side.first_element]).first(side.triangle ? 3 : 4);
 }
 
-Point3 middle_of(const ElementMesh& mesh, const MeshSide& side) {
-  const auto corners = corners_of(mesh, side);
-  Point3 sum(0.0);
-  for (const ElementVertexId v : corners)
-    sum += mesh.vertices[index(v)];
-  return sum / static_cast<double>(corners.size());
-}
-
 /// The places at which faces have corners, and the faces at each.
 struct CornerPlaces {
   std::vector<std::array<std::uint32_t, 4>> of_side; ///< by SideId; a triangle repeats its third
@@ -94,7 +86,6 @@ private:
     static const double min_cosine = std::cos(max_turn * std::numbers::pi / 180.0);
     const MeshSide& begin = mesh_.sides[index(first)];
     const double edge = max_edge * begin.element_size;
-    const Point3 middle = middle_of(mesh_, begin);
     members_ = {first};
     taken_[index(first)] = 1;
     double area = area_of(first);
@@ -105,14 +96,11 @@ private:
           const MeshSide& side = mesh_.sides[index(other)];
           if (members_.size() == max_faces)
             return;
-          if (taken_[index(other)] != 0 || glm::dot(side.normal, begin.normal) < min_cosine)
-            continue;
-          const double with_it = area + area_of(other);
-          const Vec3 away = middle_of(mesh_, side) - middle;
-          if (with_it > edge * edge || glm::dot(away, away) > with_it)
+          if (taken_[index(other)] != 0 || glm::dot(side.normal, begin.normal) < min_cosine ||
+              area + area_of(other) > edge * edge)
             continue;
           taken_[index(other)] = 1;
-          area = with_it;
+          area += area_of(other);
           members_.push_back(other);
         }
   }

@@ -6,10 +6,9 @@
 // Face cluster radiosity: Willmott, Heckbert and Garland 1999. Here a cluster grows from its first
 // face over common corners, while
 //
-//   n . n_first >= cos 25 degrees,     |x - x_first|^2 <= sum of A <= (s / 4)^2,     at most 32 faces
+//   n . n_first >= cos 25 degrees,     sum of A <= (s / 4)^2,     at most 32 faces
 //
-// with x the centres of faces and s the size asked of elements there: a cluster is about as long as it is wide,
-// also of slivers and of faces about a pole. Faces are taken by their numbers, so that clusters turn and
+// with s the size asked of elements there. Faces are taken by their numbers, so that clusters turn and
 // scale with the scene. Linear in faces.
 #pragma once
 

@@ -97,7 +97,7 @@ wait_for 60 'no two idle nodes' idle_nodes
 
 cat > "$work/jobs.json" << END
 {"jobs": [{"scenes": "$source/scenes/gallery/cornell-mirror.gltf", "cameras": {"name": "turn", "orbit": {"radius": 2.5}, "frames": 16},
-  "settings": {"quality": "draft", "size": "320x240", "samples": 64}, "outputs": ["{frame}.exr", "{frame}.png"]}]}
+  "settings": {"quality": "draft", "size": "320x240", "samples": 512}, "outputs": ["{frame}.exr", "{frame}.png"]}]}
 END
 "$program" batch "$work/jobs.json" -o "$work/alone" --quiet
 submit() {
