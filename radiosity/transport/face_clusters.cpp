@@ -3,6 +3,7 @@
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/small_surfaces.h"
 #include "radiosity/mesh/vertex_welder.h"
+#include "scenes/rays/ray_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t max_faces = 32;
+constexpr std::size_t max_members = 32;
 constexpr double max_turn = 25.0;       // degrees from the first face
 constexpr double max_edge = 1.0 / 4.0;  // of a square as large as a cluster, in element sizes
 
@@ -61,8 +62,9 @@ CornerPlaces corner_places(const ElementMesh& mesh, const SurfaceModel& surfaces
 /// Grows clusters one after the other, breadth first.
 class ClusterGrowth {
 public:
-  ClusterGrowth(const ElementMesh& mesh, const SurfaceModel& surfaces)
-      : mesh_(mesh), places_(corner_places(mesh, surfaces)), taken_(mesh.sides.size(), 0) {}
+  explicit ClusterGrowth(const LightScene& light)
+      : mesh_(light.mesh), rays_(light.rays), places_(corner_places(light.mesh, light.surfaces)),
+        taken_(light.mesh.sides.size(), 0) {}
 
   FaceClusters run() {
     for (std::uint32_t s = 0; s < mesh_.sides.size(); ++s) {
@@ -78,6 +80,24 @@ public:
   }
 
 private:
+  Point3 middle_of(SideId side) const {
+    const auto corners = corners_of(mesh_, mesh_.sides[index(side)]);
+    Point3 sum(0.0);
+    for (const ElementVertexId corner : corners)
+      sum += mesh_.vertices[index(corner)];
+    return sum / static_cast<double>(corners.size());
+  }
+
+  /// Whether nothing parts two faces: their middles both see a point above the curve between them. It is so high that
+  /// its legs leave a curve that turns by max_turn: 27 degrees above the chord, which is half as much below the plane of a face.
+  bool are_together(SideId a, SideId b) const {
+    constexpr double height = 1.0 / 4.0; // of the distance
+    const MeshSide &one = mesh_.sides[index(a)], &other = mesh_.sides[index(b)];
+    const Point3 from = middle_of(a), to = middle_of(b);
+    const Point3 top = 0.5 * (from + to) + height * glm::distance(from, to) * glm::normalize(one.normal + other.normal);
+    return !occluded(rays_, Leg{from, top, one.plane_class}) && !occluded(rays_, Leg{to, top, other.plane_class});
+  }
+
   double area_of(SideId side) const {
     return mesh_.area[mesh_.sides[index(side)].first_element];
   }
@@ -94,10 +114,10 @@ private:
         for (std::uint32_t k = places_.begin[place]; k < places_.begin[place + 1]; ++k) {
           const SideId other = places_.sides[k];
           const MeshSide& side = mesh_.sides[index(other)];
-          if (members_.size() == max_faces)
+          if (members_.size() == max_members)
             return;
           if (taken_[index(other)] != 0 || glm::dot(side.normal, begin.normal) < min_cosine ||
-              area + area_of(other) > edge * edge)
+              area + area_of(other) > edge * edge || !are_together(first, other))
             continue;
           taken_[index(other)] = 1;
           area += area_of(other);
@@ -106,6 +126,7 @@ private:
   }
 
   const ElementMesh& mesh_;
+  const RayScene& rays_;
   CornerPlaces places_;
   std::vector<std::uint8_t> taken_; ///< by SideId
   std::vector<SideId> members_;     ///< of the cluster that grows
@@ -114,8 +135,8 @@ private:
 
 } // namespace
 
-FaceClusters face_clusters(const ElementMesh& mesh, const SurfaceModel& surfaces) {
-  return is_finely_tessellated(mesh) ? ClusterGrowth(mesh, surfaces).run() : FaceClusters{};
+FaceClusters face_clusters(const LightScene& light) {
+  return is_finely_tessellated(light.mesh) ? ClusterGrowth(light).run() : FaceClusters{};
 }
 
 } // namespace meninas

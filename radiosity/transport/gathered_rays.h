@@ -33,7 +33,6 @@ struct GatheredRays {
   glm::vec3 by_portals{0.0F}; ///< the same of rays that left by portals, which are not among these: W/m^2/sr
   std::uint64_t traced = 0;
   ContactMask covered = 0;
-  double near = 0.0; ///< of the rays of a cluster, those that met something within its reach
   double covered_rays = 0.0; ///< of `black`, those from where something stands
   float exposed = 1.0F;      ///< the share of the receiver's area on which nothing does
 
@@ -45,8 +44,8 @@ struct GatheredRays {
   }
 };
 
-/// How many rays' light was followed to its end:
-/// what is cut is left out, what a mirror has absorbed on the way is not.
+/// The number of rays whose light was followed to its end:
+/// light that was cut is left out, light absorbed by mirrors on the way is not.
 inline Rgb kept_light(const GatheredRays& gathered) {
   return glm::max(Rgb(1.0), gathered.rays - gathered.covered_rays - Rgb(gathered.cut_light));
 }
@@ -77,15 +76,7 @@ struct GatherWorkspace {
   std::vector<MirroredRay> current, next;
 };
 
-/// Whether something stands on a cluster of faces, or so near that they receive unlike light: black backs are met, or
-/// a sixteenth of all rays end within its reach. (The distance to what is met bounds how fast irradiance changes:
-/// Ward, Rubinstein and Clear 1988.)
-inline bool needs_its_faces(const GatheredRays& gathered) {
-  constexpr double many = 1.0 / 16.0;
-  return gathered.black > 0.0 || gathered.near > many * gathered.rays;
-}
-
-/// How rays ended: sums of their weights and of their light.
+/// The ends of rays: sums of their weights and of their light.
 struct Ends {
   double landed = 0.0, escaped = 0.0, black = 0.0, cut = 0.0;
   std::uint32_t black_lanes = 0;

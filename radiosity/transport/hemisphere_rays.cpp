@@ -17,7 +17,7 @@ namespace {
 const Bsdf& coat_of(const LightScene& light, TriangleId triangle) {
   return light.by_angle[index(light.scene.triangles[index(triangle)].material)];
 }
-/// What a mirror, glass or a coat makes of light that meets it at this cosine.
+/// The shares of light that a mirror, glass or a coat reflects and passes at this cosine.
 struct MirrorShares {
   glm::vec3 reflected, passed;
 };
@@ -161,7 +161,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
 
 ElementHit& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                          std::uint32_t k, GatherWorkspace& work) {
-  const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  const glm::vec2 uv = hit_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
   const Landing at = land(light.landing.elements, face.side, uv);
   if (work.keeps_places)
     work.places.push_back(at.st);
@@ -196,7 +196,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
     const FaceRecord& face =
         light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
     if (legs.medium(k) != none<MaterialId> || (face.solid && hits.front[k] == 0))
-      tau *= left_on_leg(light, legs, hits, k);
+      tau *= transmittance_on_leg(light, legs, hits, k);
     if (face.side != FaceRecord::nothing) {
       note_landing(light, face, hits, k, work).light = weight * tau;
       work.result.landings.back().world = legs.world(k);
@@ -207,7 +207,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       Carried from = legs.carried(k);
       from.throughput = tau;
       const Meeting at = meeting_of(light, face, hits, k, from);
-      // What the surface keeps or scatters besides is no loss of the mirror's.
+      // Light that the surface keeps or scatters besides is no loss of the mirror's.
       if (face.side != FaceRecord::nothing)
         ends.mirror_absorbed -= weight * tau * (1.0F - at.shares.reflected - at.shares.passed);
       follow(face, weight, going_on(light, {face, hits, k}, from, at, work.seed));
@@ -247,8 +247,6 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
         static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
     set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-    for (std::uint32_t k = 0; k < packet.count && source.reach > 0.0F; ++k)
-      work.result.near += hits.triangle[k] != index(none<TriangleId>) && hits.distance[k] < source.reach;
     const auto first = first_of(rays) + static_cast<std::uint32_t>(n * packet_size);
     const auto sort = [&](auto&& let_in) {
       const FirstLegs legs{packet, weights_of(rays.packets[n]), let_in, first};
@@ -288,7 +286,7 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
 
 } // namespace
 
-/// Of a receiver that is covered as a whole all rays count as black, also those that begin on its
+/// All rays of a receiver that is covered as a whole count as black, also those that begin on its
 /// rim, within rounding of the outside.
 static void forget_rays(GatheredRays& result, GatherWorkspace& work) {
   const double rays = result.rays;
@@ -300,7 +298,7 @@ static void forget_rays(GatheredRays& result, GatherWorkspace& work) {
   work.next.clear();
 }
 
-/// Of a cluster each face is a source of its own, and all share one net.
+/// The source of rays of a receiver. Each face of a cluster is a source of its own, and all share one net.
 static RaySource source_of(const LightScene& light, const ReceiverArea& receiver, std::uint32_t seed) {
   RaySource source = ray_source(receiver, light.rays.frame(), seed);
   double area = 0.0;
@@ -308,7 +306,6 @@ static RaySource source_of(const LightScene& light, const ReceiverArea& receiver
     source.faces.push_back(ray_source(receiver_of(light, f), light.rays.frame(), seed));
     source.area_up_to.push_back(area += light.mesh.area[index(f)]);
   }
-  source.reach = static_cast<float>(std::sqrt(area) * light.rays.frame().scale);
   return source;
 }
 
@@ -319,7 +316,7 @@ void gather_rays(const LightScene& light, const HemisphereSamples& net, const Re
   trace_first_legs(light, net, source, settings, work);
   GatheredRays& result = work.result;
   if (!receiver.faces.empty()) {
-    result.covered = needs_its_faces(result) ? 1 : 0; // which its faces tell
+    result.covered = result.black > 0.0 ? 1 : 0; // by what, its faces tell
   } else if (result.black > 0.0 && !receiver.is_point()) {
     const Covered covered = find_covered(light, net, source, work.black_lanes);
     if (covered.cells == wholly_covered)

@@ -42,7 +42,7 @@ struct ReceiverArea {
   PlaneId plane_class = none<PlaneId>;
   Vec3 tangent{0.0}; ///< a direction in the plane that directions are counted from; zero: any
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror
-  bool few_rays = false; ///< little depends on its row (scene/small_elements.h)
+  bool reduced_rays = false; ///< little depends on its row (scene/small_elements.h)
 
   std::span<const ElementId> faces = {}; ///< of a cluster of elements, which must outlive it; of itself it has nothing else
 
@@ -80,7 +80,6 @@ struct RaySource {
   TangentFrame tangents;
   std::array<std::uint32_t, 4> shift;
   std::vector<RaySource> faces = {};     ///< of a cluster
-  float reach = 0.0F; ///< of a cluster: the edge of a square as large
   std::vector<double> area_up_to = {}; ///< by face of a cluster, m^2: its own and of all before
 };
 RaySource ray_source(const ReceiverArea& receiver, const RayFrame& frame, std::uint32_t seed);

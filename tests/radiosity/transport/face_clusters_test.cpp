@@ -25,7 +25,7 @@ Scene room_with_ball(int rings) {
 
 TEST(FaceClusters, HoldFacesOnceWithinTheirBounds) {
   const auto l = lit(room_with_ball(50), {.element_size = 0.5});
-  const FaceClusters clusters = face_clusters(l->mesh, l->surfaces);
+  const FaceClusters clusters = face_clusters(*l->light);
   const double min_cosine = std::cos(25.0 * std::numbers::pi / 180.0), max_area = 0.125 * 0.125;
   std::vector<int> taken(l->mesh.sides.size(), 0);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -54,15 +54,15 @@ TEST(FaceClusters, AreTheSameHoweverTheSceneLies) {
   const auto here = lit(scene, {.element_size = 0.5});
   const Scene there = transformed(scene, oblique_rotation(), 7.0, {30.0, -20.0, 10.0});
   const auto turned = lit(there, {.element_size = 3.5});
-  const FaceClusters a = face_clusters(here->mesh, here->surfaces),
-                     b = face_clusters(turned->mesh, turned->surfaces);
+  const FaceClusters a = face_clusters(*here->light),
+                     b = face_clusters(*turned->light);
   EXPECT_EQ(a.begin, b.begin);
   EXPECT_EQ(a.sides, b.sides);
 }
 
 TEST(FaceClusters, AreNoneWhereFewFacesAreSmall) {
   const auto l = lit(room_with_ball(24), {.element_size = 0.5});
-  EXPECT_EQ(face_clusters(l->mesh, l->surfaces).size(), 0U);
+  EXPECT_EQ(face_clusters(*l->light).size(), 0U);
 }
 
 } // namespace
