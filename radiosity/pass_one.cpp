@@ -2,7 +2,7 @@
 
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_field.h"
-#include "radiosity/reflected_light.h"
+#include "radiosity/radiosity_equation.h"
 #include "radiosity/relight.h"
 #include "radiosity/solvers/solve.h"
 #include "scenes/stopwatch.h"
@@ -37,15 +37,15 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
       solution.radiosity[e] += passed_from_behind(translucent, e, solution.irradiance);
 }
 
-/// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
+/// H at the vertices: D there, and indirect light gathered from the elements, by nodes where these say so.
 /// Elements that are not seen may be less exact (pass_one.h).
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
                               const SeenElements& seen, const Progress& progress) {
   const ElementLight elements{std::move(solved.solver.radiosity), irradiance,
-                              solved.first.from_source, solved.first.translucent,
+                              solved.first.direct, solved.first.translucent,
                               std::move(solved.by_lamp), std::move(solved.irradiance_by_lamp),
-                              std::move(solved.first.from_source_by_lamp)};
+                              std::move(solved.first.direct_by_lamp)};
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
                           {settings.form_factors, settings.direct, settings.interpolation, progress,
@@ -54,28 +54,38 @@ InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& se
                      settings.interpolation, progress);
 }
 
-/// From the light that elements reflect to the field, with the figures of both.
-RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
-                           const PassOneSettings& settings, ReflectedLight solved,
-                           const Progress& progress, const SeenElements& seen = {}) {
-  Stopwatch watch;
-  RadiositySolution solution;
-  static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
-  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, seen, progress);
-  add_up_by_vertex(found.field);
-  if (!settings.interpolation.mirrored)
-    found.field.mirrored = found.field.indirect_mirrored = {};
-  take_received(light->mesh, solved.first.translucent, found.received, solution);
-  solution.field = {std::move(found.field),
-                    found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
-  solution.seconds = {solved.form_factor_seconds, solved.solve_seconds, watch.lap()};
-
+/// Adds the figures of a solution that users are told beside its light.
+void add_figures(const LightScene& light, ReflectedLight solved, const InterpolatedField& found,
+                 double seconds_of_field, RadiositySolution& solution) {
+  solution.seconds = {solved.form_factor_seconds, solved.solve_seconds, seconds_of_field};
   solution.closure = closure_error(solved.closure);
-  solution.energy = energy_balance(*light, solution, solved.closure, solved.first.entering);
+  solution.energy = energy_balance(light, solution, solved.closure, solved.first.entering);
   solution.solver = std::move(solved.solver);
   solution.links = solved.links;
   solution.form_factor_rays = solved.rays_traced + found.form_factor_rays;
   solution.shadow_rays = solved.first.shadow_rays + found.shadow_rays;
+}
+
+/// From X, the light that elements reflect, to the solution.
+RadiositySolution solution_from(const std::shared_ptr<const LightScene>& light,
+                                const PassOneSettings& settings, ReflectedLight solved,
+                                const Progress& progress, const SeenElements& seen = {}) {
+  Stopwatch watch;
+  // On elements: B = E + X, H = D + G + T X.
+  RadiositySolution solution;
+  static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
+
+  // At vertices: H(x) = D(x) + sum of tau F B, by one more gathering; elements may take the means of their corners.
+  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, seen, progress);
+  take_received(light->mesh, solved.first.translucent, found.received, solution);
+
+  // The field, with the mesh on which it is.
+  add_up_by_vertex(found.field);
+  if (!settings.interpolation.mirrored)
+    found.field.mirrored = found.field.indirect_mirrored = {};
+  solution.field = {std::move(found.field),
+                    found.mesh ? light_scene_on(light, std::move(*found.mesh)) : light};
+  add_figures(*light, std::move(solved), found, watch.lap(), solution);
   return solution;
 }
 
@@ -120,32 +130,23 @@ RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,
     check_size(settings.solver.method, element_count(light->mesh));
   if (nothing_emits(*light))
     return darkness(light, settings);
-  if (shoots_rays(settings, element_count(light->mesh)))
-    return shoot_pass_one(light, settings, progress, watch);
-  if (settings.cut == MeshCut::hierarchical)
-    return field_of(light, settings, reflected_by_nodes(*light, settings, progress), progress,
-                    seen);
 
-  // F^w by rays, hemicubes or exactly; S = rho (D + G); X = S + rho T X; then H at every vertex.
-  Stopwatch stopwatch;
-  const FormFactors factors = assemble_transport(*light, settings.form_factors, progress);
-  const double seconds = stopwatch.lap();
-  RadiositySolution solution = solve_pass_one(light, factors, settings, progress, watch);
-  solution.seconds.form_factors += seconds;
-  return solution;
+  // X = rho (D + G) + rho T X on the cut (Eq. 1); from it B and H on elements, and H at vertices.
+  ReflectedLight solved = reflected_light(*light, settings, progress, watch);
+  return solution_from(light, settings, std::move(solved), progress, seen);
 }
 
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const FormFactors& factors, const PassOneSettings& settings,
                                  const Progress& progress, const PassOneWatch& watch) {
-  return field_of(light, settings, reflected_by_rows(*light, factors, settings, progress, watch),
-                  progress);
+  return solution_from(light, settings, reflected_by_rows(*light, factors, settings, progress, watch),
+                       progress);
 }
 
 RadiositySolution shoot_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch) {
-  return field_of(light, settings, reflected_by_shots(*light, settings, progress, watch), progress);
+  return solution_from(light, settings, reflected_by_shots(*light, settings, progress, watch), progress);
 }
 
 } // namespace meninas

@@ -14,7 +14,7 @@ void add_up_by_vertex(VertexIrradiance& field) {
     for (std::size_t v = 0; v < direct.size(); ++v)
       sum += glm::dvec3(direct[v]) + glm::dvec3(indirect[v]);
   }
-  // And where nothing is known of any lamp anywhere, as of a narrow spot between all points, all have as much.
+  // Where nothing is known of any lamp anywhere, as of a narrow spot between all points, all have equal shares.
   const glm::dvec3 known = std::accumulate(in_all.begin(), in_all.end(), glm::dvec3(0.0));
   for (glm::dvec3& sum : in_all)
     for (int band = 0; band < 3; ++band)
@@ -43,14 +43,19 @@ void add_up_by_vertex(VertexIrradiance& field) {
 
 namespace {
 
-/// The same scene and mesh with lamps so bright. Who computes which emitter stays as it was solved.
+/// The same scene and mesh with lamps so bright. The division of emitters between methods stays as it was solved.
 struct RelitScene {
+  std::shared_ptr<const LightScene> of; // whose surfaces and rays it shares
   Scene scene;
   ElementMesh mesh;
   LightScene light; // refers to both
 
-  RelitScene(const LightScene& from, std::span<const Rgb> factors)
-      : scene(with_lights(from, factors)), mesh(from.mesh),
+  RelitScene(const std::shared_ptr<const LightScene>& shared, std::span<const Rgb> factors)
+      : RelitScene(shared, *shared, factors) {}
+
+private:
+  RelitScene(std::shared_ptr<const LightScene> shared, const LightScene& from, std::span<const Rgb> factors)
+      : of(std::move(shared)), scene(with_lights(from, factors)), mesh(from.mesh),
         light(make_light_scene(scene, from.surfaces, from.rays, {from.mirrors, from.worlds}, mesh,
                                from.textures)) {
     // The sky's openings have its new light already.
@@ -99,7 +104,7 @@ IrradianceField relit(const IrradianceField& field, std::span<const Rgb> factors
     result.by_lamp.clear();
     return result;
   }
-  const auto both = std::make_shared<const RelitScene>(*field.scene, factors);
+  const auto both = std::make_shared<const RelitScene>(field.scene, factors);
   result.scene = {both, &both->light};
   const bool one_factor = std::ranges::all_of(factors, [&](const Rgb& f) { return f == factors[0]; });
   result.irradiance.assign(field.irradiance.size(), glm::vec3(0.0F));

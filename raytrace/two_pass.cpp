@@ -17,17 +17,17 @@
 
 namespace meninas {
 
-std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
-  auto prepared = std::make_unique<PreparedScene>();
+std::shared_ptr<const PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
+  const auto prepared = std::make_shared<PreparedScene>();
   prepared->scene = std::move(scene);
   Stopwatch watch;
 
-  // What textures say everywhere is a factor before anything is decided by factors.
+  // A texture of one colour becomes a factor before anything is decided by factors.
   std::vector<std::string> warnings;
   prepared->textures = settle_textures(prepared->scene, warnings);
 
-  // What is there, and which transport it needs; what it does not need is not run.
-  // Where no mirror is followed, what coats reflect is not lost.
+  // The plan: the contents of the scene, and the transport it needs; stages it does not need are not run.
+  // Where no mirror is followed, the light that coats reflect is not lost.
   if (settings.form_factors.method == FormFactorMethod::analytic ||
       settings.form_factors.max_bounces == 0)
     spread_coats(prepared->scene);
@@ -49,22 +49,21 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
       make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark), prepared->scene,
       prepared->surfaces, prepared->plan.worlds, settings.mesh.max_elements);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
-  auto light = std::make_shared<LightScene>(make_light_scene(
+  prepared->lit.emplace(make_light_scene(
       prepared->scene, prepared->surfaces, *prepared->rays,
       {prepared->plan.mirrors, prepared->plan.worlds}, prepared->mesh, prepared->textures));
   if (settings.lamps)
-    tell_lamps_apart(*light, std::make_shared<const LampGroups>(
-                                 find_lamps(prepared->scene, *settings.lamps)));
-  prepared->light = std::move(light);
+    tell_lamps_apart(*prepared->lit, std::make_shared<const LampGroups>(
+                                         find_lamps(prepared->scene, *settings.lamps)));
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }
 
 bool solves_for_view(const PreparedScene& prepared, const TwoPassSettings& settings) {
   // Light that is gathered at hits comes from everywhere.
-  constexpr std::size_t few_patches = 8192;
+  constexpr std::size_t min_patches = 8192;
   return settings.pass_one.cut == MeshCut::hierarchical &&
-         prepared.surfaces.patches.size() > few_patches &&
+         prepared.surfaces.patches.size() > min_patches &&
          settings.render.diffuse.term != DiffuseTerm::gather;
 }
 
@@ -72,10 +71,10 @@ RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera&
                                     const TwoPassSettings& settings, const Progress& progress,
                                     const PassOneWatch& watch) {
   const SeenElements seen =
-      solves_for_view(prepared, settings) ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};
+      solves_for_view(prepared, settings) ? seen_elements(*prepared.light(), camera, settings.render) : SeenElements{};
   PassOneSettings pass_one = settings.pass_one;
   pass_one.interpolation.mirrored = settings.render.layers == WithLayers::yes;
-  return solve_for_view(prepared.light, pass_one, seen, progress, watch);
+  return solve_for_view(prepared.light(), pass_one, seen, progress, watch);
 }
 
 TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,

@@ -15,24 +15,27 @@ struct PreparationSeconds {
   double mesh = 0.0; ///< elements, and what rays need to meet them
 };
 
-/// Everything about a scene that does not depend on the view, prepared once and kept together:
-/// fields that are found on it refer to it.
-struct PreparedScene {
+/// Everything about a scene that does not depend on the view, prepared once and kept together.
+/// Fields that are found on it keep it (IrradianceField::scene): they outlive whoever prepared it.
+struct PreparedScene : std::enable_shared_from_this<PreparedScene> {
   Scene scene;
   SurfaceModel surfaces;
   TransportPlan plan;
   DecodedTextures textures;
   ElementMesh mesh;
   std::optional<RayScene> rays;
-  std::shared_ptr<const LightScene> light; ///< refers to the members above
+  std::optional<LightScene> lit; ///< refers to the members above
   PreparationSeconds seconds;
 
   PreparedScene() = default;
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
+
+  /// Together with the scene that it refers to.
+  std::shared_ptr<const LightScene> light() const { return {shared_from_this(), &*lit}; }
 };
 /// Textures that cannot be decoded are left out, with a warning of the plan.
-std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
+std::shared_ptr<const PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
 /// Whether pass one for a picture is less exact where that shows nothing: rooms of few patches are found whole in
 /// little time, and have the picture of their stored solution to the bit.

@@ -156,7 +156,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    worlds,
                    mesh,
                    textures,
-                   make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
+                   make_element_lookup(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
                    {},
                    {},
                    {},
@@ -170,7 +170,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    find_solid_bodies(scene, frame),
                    is_finely_tessellated(mesh),
                    {}};
-  light.from_source.assign(mesh.sides.size(), 0);
+  light.direct_sides.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;
   for (const auto& side : mesh.sides) {
@@ -187,7 +187,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
     if (!emits(mesh.sides[s]))
       continue;
-    light.from_source[s] = 1;
+    light.direct_sides[s] = 1;
     add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
     light.side_of_emitter.resize(light.emitters.size(), static_cast<SideId>(s));
   }
@@ -214,20 +214,22 @@ void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> group
   light.lamp_groups = std::move(groups);
 }
 
-std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh) {
+std::shared_ptr<const LightScene> light_scene_on(const std::shared_ptr<const LightScene>& light,
+                                                 ElementMesh mesh) {
   struct OnMesh {
+    std::shared_ptr<const LightScene> of; // whose scene and rays it shares
     ElementMesh mesh;
     LightScene light; // refers to the mesh beside it
-    OnMesh(const LightScene& from, ElementMesh own)
-        : mesh(std::move(own)),
+    OnMesh(std::shared_ptr<const LightScene> shared, const LightScene& from, ElementMesh own)
+        : of(std::move(shared)), mesh(std::move(own)),
           light(make_light_scene(from.scene, from.surfaces, from.rays, {from.mirrors, from.worlds},
                                  mesh, from.textures)) {
       if (from.lamp_groups)
         tell_lamps_apart(light, from.lamp_groups);
     }
   };
-  average_textures(light.scene, light.surfaces, light.textures, mesh);
-  const auto both = std::make_shared<const OnMesh>(light, std::move(mesh));
+  average_textures(light->scene, light->surfaces, light->textures, mesh);
+  const auto both = std::make_shared<const OnMesh>(light, *light, std::move(mesh));
   return {both, &both->light};
 }
 

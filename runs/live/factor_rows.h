@@ -13,7 +13,7 @@ namespace meninas {
 /// Rays to a row, where it is by rays: so many that it can be looked at on any mesh.
 inline constexpr int rays_of_shown_row = 1 << 17;
 
-/// Of any thread, one at a time.
+/// Answers calls of any thread, one at a time.
 class FactorRows {
 public:
   /// As joined_message(). Throws UserError, a sentence, where the page has no such element, or it has no factors.

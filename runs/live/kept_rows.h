@@ -1,5 +1,6 @@
-// Rows of form factors that are kept from one state of a file to the next: they do not depend on emission nor on diffuse
-// reflectances (transport/factor_key.h), so that a room of which only these have changed is lit anew without them.
+// Rows of form factors that are kept from one state of a file to the next: they do not depend on emission nor on
+// diffuse reflectances (transport/factor_key.h), so that a room of which only these have changed is lit anew without
+// them.
 //
 //   X = rho (D + G) + rho T X      with T as it was
 //
@@ -19,7 +20,7 @@ struct KeptRows {
   FormFactors factors;
 };
 
-/// What `view` keeps.
+/// The rows that `view` keeps.
 struct KeptOfScene {
   std::shared_ptr<const PreparedScene> coarse_scene; ///< that was shown last
   PassOneSettings coarse_settings;                   ///< by which its rows are assembled

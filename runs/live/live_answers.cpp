@@ -160,8 +160,8 @@ std::optional<RestingView> view_of(const Query& query) {
   const auto size = numbers_in<int>(value_in(query, "size"), 'x', 2);
   const auto exposure = number_in<double>(value_in(query, "exposure"));
   const auto number = number_in<std::uint64_t>(value_in(query, "number"));
-  constexpr double most_stops = 100.0;
-  if (size.empty() || !exposure || std::abs(*exposure) > most_stops || !number || !take_place(query, view))
+  constexpr double max_stops = 100.0;
+  if (size.empty() || !exposure || std::abs(*exposure) > max_stops || !number || !take_place(query, view))
     return std::nullopt;
   for (const int side : size)
     if (side < 1 || side > longest_side)

@@ -1,4 +1,5 @@
-// What the server of `view` answers (live_run.h): what is newest, pictures of a view, form factors, and how shots go on.
+// The answers of the server of `view` (live_run.h): the newest light, pictures of a view, form factors, and the
+// control of shots.
 #pragma once
 
 #include "runs/live/factor_rows.h"

@@ -1,5 +1,5 @@
-// What is newest of a room that is being solved, for as many readers as there are: the room, its light, and
-// how far the work is.
+// The newest state of a room that is being solved, for any number of readers: the room, its light, and the
+// progress of the work.
 //
 // A room is sent once, its light by changes. Light is irradiance H, W/m^2, at the vertices of the room, without the
 // ambient term, as halves h times a scale of the room's,
@@ -27,7 +27,7 @@
 
 namespace meninas {
 
-/// How far the work is.
+/// The progress of the work.
 struct LiveStatus {
   std::string stage;
   double done = 0.0;                  ///< of the stage that is shown, 0 to 1
@@ -53,7 +53,6 @@ struct LiveLight {
 
 /// The mesh that is shown, for who asks of its elements.
 struct ShownMesh {
-  std::shared_ptr<const void> kept; ///< what the scene refers to
   std::shared_ptr<const LightScene> light;
   std::vector<ElementId> elements; ///< by element of the page (walk_room.h)
   FormFactorSettings form_factors;
@@ -77,9 +76,10 @@ public:
   std::optional<std::string> next(std::uint64_t& seen, std::chrono::milliseconds patience) const;
   /// JSON of the room; null before there is one.
   std::shared_ptr<const std::string> room() const;
-  /// What that room's elements are; null before there is one.
+  /// The mesh of that room's elements; null before there is one.
   std::shared_ptr<const ShownMesh> mesh() const;
-  /// The newest light, as joined_message(): bits, or their differences since the state `base`. Null before there is a room.
+  /// The newest light, as joined_message(): bits, or their differences since the state `base`. Null before there is a
+  /// room.
   std::shared_ptr<const std::string> light(std::uint64_t base) const;
 
 private:

@@ -1,7 +1,7 @@
 // `view`: pass one as it goes on, in a browser, from the first second, and again whenever the file changes.
 //
-// A server of the page of `walk` (web_server.h) shows the newest state of the room (live_board.h) and pass two's pictures of
-// what is looked at (resting_pictures.h). Nothing is written. Below the address, by name and query:
+// A server of the page of `walk` (web_server.h) shows the newest state of the room (live_board.h) and pass two's
+// pictures of what is looked at (resting_pictures.h). Nothing is written. Below the address, by name and query:
 //
 //   ""          the page
 //   events      server-sent: what is newest

@@ -71,9 +71,7 @@ private:
 /// Shows a room whose mesh stays the same while its light changes.
 class ShownRoom {
 public:
-  /// `kept`: what the scenes of its fields refer to.
-  ShownRoom(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const void> kept)
-      : shown_(shown), stage_(stage), kept_(std::move(kept)) {}
+  ShownRoom(const LiveScene& shown, const LiveStage& stage) : shown_(shown), stage_(stage) {}
 
   void show(const IrradianceField& field, const Rgb& ambient, const StatusChange& change = {}) {
     if (room_) {
@@ -83,7 +81,7 @@ public:
     room_ = walk_room(field);
     const LiveLight light{irradiance_of(*room_), ambient};
     stage_.board.show_room(data_of(field, ambient), room_->middle, light,
-                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors}, change);
+                           {field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors}, change);
   }
 
 private:
@@ -110,7 +108,6 @@ private:
 
   const LiveScene& shown_;
   const LiveStage& stage_;
-  std::shared_ptr<const void> kept_;
   std::optional<WalkRoom> room_;
 };
 
@@ -120,7 +117,7 @@ public:
   /// `gathers`: how these steps are made, where they may be made the other way.
   ShownShots(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since,
              std::shared_ptr<const PreparedScene> prepared, std::optional<bool> gathers = std::nullopt)
-      : gathers_(gathers), since_(since), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
+      : gathers_(gathers), since_(since), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light()), room_(shown, stage) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
@@ -129,7 +126,7 @@ public:
     stage_.board.change_status([&](LiveStatus& status) { status.stage = "dark"; });
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
     // A room of its own: the exposure of the lit one is another.
-    ShownRoom(shown_, stage_, prepared_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
     wait();
   }
   void look(const PassOneSoFar& state, const char* steps) {
@@ -205,16 +202,16 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsS
                            },
                            true};
   if (gathers)
-    solve_pass_one(prepared->light, rows_of(stage.kept.coarse, *prepared->light, settings.form_factors, told), settings, told, watch);
+    solve_pass_one(prepared->light(), rows_of(stage.kept.coarse, *prepared->light(), settings.form_factors, told), settings, told, watch);
   else
-    shoot_pass_one(prepared->light, settings, told, watch);
+    shoot_pass_one(prepared->light(), settings, told, watch);
 }
 
 /// By rows that are there: one state, with all light.
 void relight_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since) {
   const auto& [prepared, settings, rows, whole] = stage.kept;
-  const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
-  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0), [&](LiveStatus& status) {
+  const RadiositySolution solution = solve_pass_one(prepared->light(), rows.factors, settings);
+  ShownRoom(shown, stage).show(solution.field, Rgb(0.0), [&](LiveStatus& status) {
     status.stage = "relit";
     status.is_relit = true;
     status.elements = element_count(prepared->mesh);
@@ -226,14 +223,14 @@ void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& st
   PassOneSettings settings = two_pass_settings(coarse_settings(shown.settings)).pass_one;
   // A mean over an element that is as large as furniture has no sharp shadow anyway.
   settings.direct.points = 4;
-  settings.direct.most_points = 16;
+  settings.direct.max_points = 16;
   settings.direct.images_in_element = 16;
   const std::shared_ptr<const PreparedScene> prepared = prepare_scene(scene, settings);
   stage.kept.coarse_scene = prepared;
   stage.kept.coarse_settings = settings;
   stage.kept.coarse_settings.solver.method = SolverMethod::jacobi;
   stage.kept.coarse_settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
-  if (!stage.steps.paused() && are_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors))
+  if (!stage.steps.paused() && are_of(stage.kept.coarse, *prepared->light(), stage.kept.coarse_settings.form_factors))
     return relight_coarse(shown, stage, since);
   for (bool done = false; !done;) {
     try {
@@ -276,11 +273,11 @@ RunSettings coarse_settings(RunSettings settings) {
 }
 
 void keep_rows(const LiveStage& stage) {
-  constexpr std::size_t most_elements = 1 << 14; // of more, rows would take seconds and tell little
+  constexpr std::size_t max_elements = 1 << 14; // of more, rows would take seconds and tell little
   const std::shared_ptr<const PreparedScene> prepared = stage.kept.coarse_scene;
-  if (element_count(prepared->mesh) > most_elements)
+  if (element_count(prepared->mesh) > max_elements)
     return;
-  rows_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors, [&](std::string_view, double) {
+  rows_of(stage.kept.coarse, *prepared->light(), stage.kept.coarse_settings.form_factors, [&](std::string_view, double) {
     if (stage.is_over())
       throw StageOver{};
   });
@@ -288,7 +285,7 @@ void keep_rows(const LiveStage& stage) {
 }
 
 void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage) {
-  ShownRoom(shown, stage, room.lit.prepared).show(room.solution.field, Rgb(0.0));
+  ShownRoom(shown, stage).show(room.solution.field, Rgb(0.0));
 }
 
 std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage) {
@@ -312,7 +309,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
   const char* const steps = settings.solver.method == SolverMethod::jacobi ? "sweeps" : "shots";
   StageProgress progress(stage, pass_one_stages(shown.settings));
   RadiositySolution solution = solve_whole(
-      stage.kept, prepared->light, settings,
+      stage.kept, prepared->light(), settings,
       [&](std::string_view name, double fraction) {
         progress.report(name, fraction);
         stage.board.change_status([&](LiveStatus& status) { status.seconds = since.seconds(); });
@@ -320,7 +317,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
       {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state, steps); }, true});
   add_solution(figures, solution);
   warn_of_solution(*prepared, figures.solver, figures.closure, stage.events);
-  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
+  ShownRoom(shown, stage).show(solution.field, Rgb(0.0));
   const LitScene lit{prepared, solution.field};
   auto room = std::make_shared<SolvedRoom>(SolvedRoom{.lit = lit,
                                                       .solution = std::move(solution),

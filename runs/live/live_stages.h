@@ -1,4 +1,4 @@
-// What is shown of a scene from the first second on, one after another:
+// The states of a scene that are shown from the first second on, one after another:
 //
 //   coarse   a uniform mesh of few elements, solved by shots (radiosity/solvers/progressive.h), H = D + G + what has been
 //            shot, with the ambient term beside it; every shot is a state, of many patches every so many. Or by gathering, where somebody asks for it:
@@ -30,7 +30,7 @@ struct LiveStage {
   RunEvents events;
 };
 
-/// What is shown, and how.
+/// The shown scene, and its settings.
 struct LiveScene {
   std::filesystem::path file;
   RunSettings settings;

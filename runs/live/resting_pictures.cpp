@@ -61,11 +61,11 @@ std::shared_ptr<const SolvedRoom> RestingPictures::room() const {
 }
 
 RestingPictures::Newest RestingPictures::newest_of(const std::string& viewer, std::uint64_t number) {
-  constexpr std::size_t most_viewers = 32;
+  constexpr std::size_t max_viewers = 32;
   const std::scoped_lock lock(mutex_);
   auto place = std::ranges::find(viewers_, viewer, &Viewer::name);
   if (place == viewers_.end()) {
-    if (viewers_.size() == most_viewers)
+    if (viewers_.size() == max_viewers)
       viewers_.pop_front();
     viewers_.push_back({viewer, std::make_shared<std::atomic<std::uint64_t>>(number)});
   } else
@@ -80,14 +80,14 @@ RestingPictures::Newest RestingPictures::newest_of(const std::string& viewer, st
 void RestingPictures::moved(const std::string& viewer, std::uint64_t number) { newest_of(viewer, number); }
 
 bool RestingPictures::wait_for_turn(const RestingView& view, const Newest& newest) {
-  constexpr std::size_t most_waiting = 4;
+  constexpr std::size_t max_waiting = 4;
   std::unique_lock lock(mutex_);
   if (is_rendering_) {
     // Those that its viewer has moved on from leave in any case.
     std::erase_if(waiting_, [&](const auto& one) { return one.first == view.viewer && one.second < view.number; });
     if (std::ranges::find(waiting_, view.viewer, [](const auto& one) { return one.first; }) != waiting_.end())
       throw NoPictureNow{"A picture of this page is waited for already."};
-    if (waiting_.size() >= most_waiting)
+    if (waiting_.size() >= max_waiting)
       throw NoPictureNow{"Other pages wait for pictures: try again later."};
     const std::pair mine{view.viewer, view.number};
     waiting_.push_back(mine);
@@ -129,7 +129,7 @@ std::shared_ptr<const ViewPicture> RestingPictures::rendered(const std::shared_p
 
 std::optional<std::vector<std::byte>> RestingPictures::picture(const RestingView& view, RestingStep step,
                                                                PictureFormat format) {
-  constexpr int coarser = 3, few_samples = 4;
+  constexpr int coarser = 3, max_samples = 4;
   const auto newest = newest_of(view.viewer, view.number);
   if (!wait_for_turn(view, newest))
     return std::nullopt;
@@ -143,7 +143,7 @@ std::optional<std::vector<std::byte>> RestingPictures::picture(const RestingView
   written.exposure = view.exposure;
   if (step == RestingStep::coarse) {
     seen.size = {std::max(1, view.size.width / coarser), std::max(1, view.size.height / coarser)};
-    settings.samples = std::min(few_samples, two_pass_settings(settings).render.samples);
+    settings.samples = std::min(max_samples, two_pass_settings(settings).render.samples);
     settings.pixel_error.reset();
   }
   std::shared_ptr<const ViewPicture> picture;

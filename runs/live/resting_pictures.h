@@ -1,7 +1,7 @@
 // Pass two's pictures of what somebody looks at who stands still.
 //
 // A picture comes in two steps, a third as wide and high by few samples, and whole by those asked for, one picture at a
-// time. Who moves on before it is there ends it. The whole one is that of `meninas render` with the command that
+// time. A viewer who moves on before it is there ends it. The whole is that of `meninas render` with the command that
 // command_of() gives, bit for bit.
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace meninas {
 
-/// What somebody looks at.
+/// The view of a viewer.
 struct RestingView {
   std::string viewer;       ///< who
   std::uint64_t number = 0; ///< counts up with every move of theirs

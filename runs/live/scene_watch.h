@@ -1,8 +1,8 @@
 // A scene's files, read again whenever they have changed on disk.
 //
-// Those are the file itself, what it names as buffers and images, and what the settings name besides. They are
-// looked at three times a second, by size and time of change, and read when they have been still for as long: whoever writes a
-// file takes time for it. What cannot be read is told, and what was read before stays.
+// A scene's files are the file itself, its buffers and images, and the files that the settings name besides. They are
+// checked three times a second, by size and time of change, and read when they have been still for as long, because
+// writing a file takes time. If a file cannot be read, that is told, and the scene read before stays.
 #pragma once
 
 #include "runs/run_settings.h"
@@ -21,7 +21,7 @@
 
 namespace meninas {
 
-/// How a file is: how large, and since when.
+/// The state of a file: its size, and its time of change.
 using FileState = std::tuple<std::filesystem::path, std::uintmax_t, std::filesystem::file_time_type>;
 
 class SceneWatch {

@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using httplib::Server;
 
-constexpr std::size_t most_connections = 48, most_listeners = 24, longest_request = 1024, most_waiting = 64;
+constexpr std::size_t max_connections = 48, max_listeners = 24, longest_request = 1024, max_waiting = 64;
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
@@ -40,12 +40,12 @@ using Accepted = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 /// system's own short queue, and past that they are refused.
 class BoundedThreads : public httplib::TaskQueue {
 public:
-  explicit BoundedThreads(const std::atomic<bool>& over) : over_(over), threads_(most_connections) {}
+  explicit BoundedThreads(const std::atomic<bool>& over) : over_(over), threads_(max_connections) {}
 
   Accepted enqueue(std::function<void()> job) override {
     constexpr std::chrono::milliseconds patience(100);
     std::unique_lock lock(mutex_);
-    while (!room_.wait_for(lock, patience, [this] { return waiting_ < most_waiting || over_; })) {
+    while (!room_.wait_for(lock, patience, [this] { return waiting_ < max_waiting || over_; })) {
     }
     ++waiting_;
     lock.unlock();
@@ -142,7 +142,7 @@ struct Listening {
 
   /// The newest, and then the newest again; a line of nothing at times, which tells who has left.
   void send_events(httplib::Response& response) {
-    if (++listeners > most_listeners) {
+    if (++listeners > max_listeners) {
       --listeners;
       response.status = 503;
       return;

@@ -1,5 +1,5 @@
-// Shots one by one, or sweeps of gathering, for teaching: whoever solves waits here before each, as long as somebody has
-// stopped it.
+// Shots one by one, or sweeps of gathering, for teaching: whoever solves waits here before each, as long as somebody
+// has stopped it.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,8 @@ public:
   void pause(bool paused);
   /// One shot more, and then none.
   void step();
-  /// Returns when the next shot may be made, or at once where elements do not gather as `gathers` has it. Meanwhile `is_over` is asked ten times a second, and ends it.
+  /// Returns when the next shot may be made, or at once where elements do not gather as `gathers` has it. Meanwhile
+  /// `is_over` is asked ten times a second, and ends it.
   void wait(const std::function<bool()>& is_over, std::optional<bool> gathers = std::nullopt);
 
 private:

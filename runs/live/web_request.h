@@ -1,4 +1,4 @@
-// What a server of one page is asked and answers (web_server.h).
+// Requests and replies of a server of one page (web_server.h).
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace meninas {
 
-/// What is asked for, below the token.
+/// A request, below the token.
 struct WebRequest {
   std::string path;                         ///< "" is the page
   std::map<std::string, std::string> query; ///< the last of each name
@@ -27,7 +27,7 @@ struct WebReply {
 /// Called by any thread, for many requests at once.
 using AnswerRequest = std::function<WebReply(const WebRequest&)>;
 
-/// What is newer than `seen`, which it sets; nothing where nothing is after so long.
+/// The next event newer than `seen`, which it sets; nothing if there is none within `patience`.
 using NextEvent =
     std::function<std::optional<std::string>(std::uint64_t& seen, std::chrono::milliseconds patience)>;
 

@@ -16,7 +16,8 @@ namespace meninas {
 class WebServer {
 public:
   /// Listens from now on. `port` 0: any that is free. `events` are sent below the token as "events".
-  /// Throws OutputError where the port is taken or may not be used, and InputError where the module that serves is not there.
+  /// Throws OutputError where the port is taken or may not be used, and InputError where the module that serves is not
+  /// there.
   WebServer(int port, AnswerRequest answer, NextEvent events);
   ~WebServer();
   WebServer(const WebServer&) = delete;

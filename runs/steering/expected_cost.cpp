@@ -1,8 +1,7 @@
 #include "runs/steering/expected_cost.h"
 
 #include "radiosity/expected_cost.h"
-#include "raytrace/error/probes.h"
-#include "raytrace/views/view_light.h"
+#include "raytrace/error/picture_cost.h"
 #include "runs/steering/memory.h"
 
 namespace meninas {
@@ -12,27 +11,21 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   constexpr double started = 0.03;                        // program and its libraries
   constexpr double busy = 0.9;                            // of the threads, on average
   constexpr double encoded_pixel = 1.5e-7;
-  const RunSettings settings = settled(asked, *prepared.light);
+  const RunSettings settings = settled(asked, *prepared.light());
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = size.width;
   two_pass.render.height = size.height;
   const double share = 1.0 / (busy * threads);
   const PassOneCost pass_one =
-      expected_cost(*prepared.light, prepared.plan.bands, two_pass.pass_one);
+      expected_cost(*prepared.light(), prepared.plan.bands, two_pass.pass_one);
 
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
   cost.form_factors = share * pass_one.form_factors;
   cost.interpolate = share * pass_one.interpolate;
   cost.solve = pass_one.solve;
-  const double pixels = double(size.width) * size.height;
-  RenderSettings shown = two_pass.render;
-  if (shown.diffuse.term == DiffuseTerm::direct) {
-    cost.render = pixels * vertices_of_a_pixel * camera_ray_seconds(prepared.light, camera, shown);
-    shown.diffuse.term = DiffuseTerm::interpolated;
-  }
-  cost.render += pixels * shown.samples * camera_ray_seconds(prepared.light, camera, shown);
-  cost.write = 0.01 + encoded_pixel * pixels;
+  cost.render = expected_render_seconds(prepared.light(), camera, two_pass.render);
+  cost.write = 0.01 + encoded_pixel * double(size.width) * size.height;
   cost.total =
       cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;
   cost.bytes = expected_memory(sizes_of(prepared.scene, settings.lamps), settings, size);

@@ -1,12 +1,8 @@
-// What a run is going to take, before it: seconds on this machine and bytes.
+// The expected cost of a run before it starts: seconds on this machine, and bytes.
 //
-// Pass one as radiosity/expected_cost.h says; pass two is
-//
-//   render         pixels x (samples x one camera ray with its diffuse term
-//                            + vertices of the view's field x one hit with direct light)
-//
-// over the threads that work. What is measured is a few thousandths of the work,
-// so that it takes a fraction of a second in any scene. Bytes come from counts (memory.h). Limit: references are not foretold, they end when told.
+// The sum of what pass one (radiosity/expected_cost.h) takes of one thread, over the threads that work, and of what
+// pass two (raytrace/error/picture_cost.h) takes by all of them. To find out takes a fraction of a second in any scene. Bytes come from counts (memory.h).
+// Limit: the time of references is not foretold.
 #pragma once
 
 #include "raytrace/two_pass.h"

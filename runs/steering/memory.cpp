@@ -1,6 +1,6 @@
 #include "runs/steering/memory.h"
 
-#include "raytrace/views/view_light.h"
+#include "raytrace/error/picture_cost.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>
@@ -38,17 +38,11 @@ std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, 
   const double pixels = double(size.width) * size.height;
   const bool layers = settings.layers == WithLayers::yes;
   const bool reference = settings.mode == PictureMode::reference;
-  // A plane of floats while it is rendered, once more while it is encoded, and the encoded file.
   const double planes = 1.0 + (layers ? 9.0 : 0.0) + (reference ? 8.0 : 0.0) +
                         static_cast<double>(settings.features.size());
-  constexpr double per_plane = 3.0 * sizeof(glm::vec3), per_picture = 4e6;
   const double own_scene = reference ? static_cast<double>(scene_memory(scene, settings)) : 0.0;
-  // The cells of the view's field, and the points that are seen.
-  constexpr double per_vertex = 350.0, per_point = 48.0;
-  const double finer = diffuse_term(settings) == DiffuseTerm::direct && !reference
-                           ? (vertices_of_a_pixel * per_vertex + per_point) * pixels
-                           : 0.0;
-  return whole(per_picture + per_plane * planes * pixels + own_scene + finer);
+  const DiffuseTerm term = reference ? DiffuseTerm::interpolated : diffuse_term(settings);
+  return whole(expected_picture_bytes(pixels, planes, term) + own_scene);
 }
 
 std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,

@@ -50,6 +50,27 @@ TEST(Render, AnEmitterHasItsOwnRadianceInEveryPixel) {
   for (const auto& pixel : image.pixels) EXPECT_NEAR(pixel.g, 3.0, 3.0 * rounding);
 }
 
+// A field owns the scene and the mesh on which it is, whether that is the solved one or was divided for the field; so it is
+// drawn to the same bits when whoever prepared the scene has gone. With a dangling mesh this reads freed memory.
+TEST(Render, AFieldOutlivesWhoPreparedItsScene) {
+  const Scene scene = half_room_with_small_mirror();
+  const Camera camera = look_at({1.7, 1.3, 2.7}, {0.0, 1.0, 1.0}, 1.0);
+  const TwoPassSettings settings = quick(24, 16, 4);
+  for (const double bound : {0.0, 0.02}) {
+    PassOneSettings pass_one = settings.pass_one;
+    pass_one.interpolation.bend = bound;
+    auto prepared = prepare_scene(scene, pass_one);
+    const std::weak_ptr<const PreparedScene> watched = prepared;
+    IrradianceField field = solve_pass_one(prepared->light(), pass_one).field;
+    const Image before = render(field, camera, settings.render).image;
+    prepared.reset();
+    EXPECT_FALSE(watched.expired()) << "the field keeps it";
+    EXPECT_EQ(render(field, camera, settings.render).image.pixels, before.pixels);
+    field = {};
+    EXPECT_TRUE(watched.expired()) << "and nothing else does";
+  }
+}
+
 TEST(Render, OrthographicRaysAreParallel) {
   // The lamp covers -1 .. 1 of a picture that shows -2 .. 2: a quarter of it, at whatever distance.
   for (const double distance : {1.0, 50.0}) {

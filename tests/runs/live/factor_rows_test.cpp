@@ -30,10 +30,10 @@ float half_to_float(int bits) {
 // Halves are off by 2^-11 of each number.
 TEST(FactorRows, AreThoseOfTheLibrary) {
   const std::shared_ptr<const PreparedScene> prepared = prepare_scene(test::half_room_with_small_mirror(), uniform());
-  const RadiositySolution solution = solve_pass_one(prepared->light, uniform());
+  const RadiositySolution solution = solve_pass_one(prepared->light(), uniform());
   const WalkRoom room = walk_room(solution.field);
   ASSERT_EQ(room.elements.size(), room.element_ends.size());
-  const ShownMesh mesh{prepared, solution.field.scene, room.elements, uniform().form_factors, 7};
+  const ShownMesh mesh{solution.field.scene, room.elements, uniform().form_factors, 7};
   FormFactorSettings settings = uniform().form_factors;
   settings.rays = rays_of_shown_row;
   FactorRows rows;
@@ -88,9 +88,9 @@ TEST(KeptRows, OfAnotherLightGiveTheSolutionOfARunWithoutThem) {
   const PassOneSettings settings = uniform();
   for (const auto& [reflectance, emission] : {std::pair{1.0, 1.0}, {0.7, 1.0}, {0.7, 3.0}}) {
     const auto prepared = prepare_scene(with_light(reflectance, emission), settings);
-    EXPECT_EQ(are_of(kept, *prepared->light, settings.form_factors), kept.key.has_value());
-    const FormFactors& rows = rows_of(kept, *prepared->light, settings.form_factors, {});
-    const RadiositySolution by_kept = solve_pass_one(prepared->light, rows, settings), alone = solve_pass_one(prepared->light, settings);
+    EXPECT_EQ(are_of(kept, *prepared->light(), settings.form_factors), kept.key.has_value());
+    const FormFactors& rows = rows_of(kept, *prepared->light(), settings.form_factors, {});
+    const RadiositySolution by_kept = solve_pass_one(prepared->light(), rows, settings), alone = solve_pass_one(prepared->light(), settings);
     EXPECT_EQ(by_kept.radiosity, alone.radiosity);
     EXPECT_EQ(by_kept.irradiance, alone.irradiance);
     EXPECT_EQ(by_kept.field.irradiance, alone.field.irradiance);
@@ -98,12 +98,12 @@ TEST(KeptRows, OfAnotherLightGiveTheSolutionOfARunWithoutThem) {
   Scene moved = with_light(1.0, 1.0);
   moved.vertices.front().position.x += 0.01;
   const auto prepared = prepare_scene(std::move(moved), settings);
-  EXPECT_FALSE(are_of(kept, *prepared->light, settings.form_factors));
+  EXPECT_FALSE(are_of(kept, *prepared->light(), settings.form_factors));
   const auto same = prepare_scene(with_light(1.0, 1.0), settings);
   FormFactorSettings others = settings.form_factors;
   others.seed = 3;
-  EXPECT_TRUE(are_of(kept, *same->light, settings.form_factors));
-  EXPECT_FALSE(are_of(kept, *same->light, others));
+  EXPECT_TRUE(are_of(kept, *same->light(), settings.form_factors));
+  EXPECT_FALSE(are_of(kept, *same->light(), others));
 }
 
 } // namespace
