@@ -8,7 +8,7 @@
 
 namespace meninas {
 
-/// Of the first `roots` cells, which are elements, and those below. Their vertices are numbered from
+/// The lookup of the first `roots` cells, which are elements, and of those below. Their vertices are numbered from
 /// `first_vertex` on. Elements without cells stay what they are.
 FieldCells cell_lookup(const ElementMesh& mesh, const LatticeCells& all, std::size_t roots,
                        std::size_t first_vertex);

@@ -163,8 +163,8 @@ bool LatticeCells::is_at_border(const LatticeVertex& vertex) const {
   if (stands_apart(vertex.element))
     return true;
   const auto& [x, y] = vertex.at;
-  const std::int64_t most_x = side.nu * width_at(0), most_y = side.nv * width_at(0);
-  return x == 0 || y == 0 || (side.triangle ? x + y == most_x : x == most_x || y == most_y);
+  const std::int64_t max_x = side.nu * width_at(0), max_y = side.nv * width_at(0);
+  return x == 0 || y == 0 || (side.triangle ? x + y == max_x : x == max_x || y == max_y);
 }
 
 /// All vertices between two, the middle before what is between it and the ends.

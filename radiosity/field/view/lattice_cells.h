@@ -27,7 +27,7 @@ struct LatticeVertex {
   LatticePoint at;
   std::uint8_t level =
       0; ///< of the cells that it was made for: one more than that whose edge it halves
-  /// What it is in the middle of: the ends of an edge, each twice, or the corners of a cell.
+  /// The vertices that it is in the middle of: the ends of an edge, each twice, or the corners of a cell.
   /// A corner of an element that halves no edge of another has none: all are itself.
   std::array<std::uint32_t, 4> between{};
 };
@@ -61,7 +61,7 @@ public:
   /// The vertex in the middle of the edge from one corner to the next; `no_vertex` if there is none.
   std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) const;
 
-  /// Those of the edges of a cell that was divided; a triangle has no fourth, `no_vertex`.
+  /// The vertices in the middle of the edges of a divided cell; a triangle has no fourth, `no_vertex`.
   std::array<std::uint32_t, 4> edge_middles(const LatticeCell& divided) const;
 
   /// (s, t) of a vertex in its element, and (u, v) in its patch.
@@ -100,7 +100,7 @@ struct HangingCorner {
   std::uint32_t vertex, end_a, end_b;
 };
 
-/// Those on the edges of these leaves; those whose ends hang themselves after these.
+/// The hanging vertices on the edges of these leaves; those whose ends hang themselves come last.
 std::vector<HangingCorner> hanging_corners(const LatticeCells& cells,
                                            std::vector<std::uint32_t> leaves);
 

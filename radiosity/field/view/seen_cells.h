@@ -22,7 +22,8 @@ struct SeenPoint {
 class SeenCells {
 public:
   /// The elements that points are in, but for those within a pixel, which show what their corners have.
-  /// Points are a pixel apart, or `apart` pixels. `lit` says what a point receives from punctual lights; empty: nothing.
+  /// Points are a pixel apart, or `apart` pixels. `lit` says what a point receives from punctual lights; empty:
+  /// nothing.
   SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, double apart,
             const std::function<float(const SeenPoint&)>& lit);
 
@@ -32,16 +33,15 @@ public:
 
   double apart() const { return apart_; }
 
-  /// Of a cell: how many points are in it, and its longest edge in pixels of the narrowest; 0 where nothing
-  /// of it is seen.
+  /// The number of points in a cell, and its longest edge in pixels of the narrowest; 0 where the cell is unseen.
   std::size_t points(std::uint32_t cell) const { return ranges_[cell].end - ranges_[cell].first; }
   double pixels(std::uint32_t cell) const { return ranges_[cell].pixels; }
 
   /// The least and the most that punctual lights send to its points; the least is more where it has none.
-  float least_lit(std::uint32_t cell) const { return ranges_[cell].least_lit; }
-  float most_lit(std::uint32_t cell) const { return ranges_[cell].most_lit; }
+  float min_lit(std::uint32_t cell) const { return ranges_[cell].min_lit; }
+  float max_lit(std::uint32_t cell) const { return ranges_[cell].max_lit; }
 
-  /// What a vertex stands for: the pixels of the largest cell that has it for a corner.
+  /// The extent that a vertex stands for: the pixels of the largest cell that has it for a corner.
   double pixels_of_vertex(std::uint32_t vertex) const { return double{pixels_of_vertex_[vertex]}; }
 
   /// Into four. Its points go to the children they are in. Where these are hardly larger than points are
@@ -52,7 +52,7 @@ private:
   struct Range {
     std::size_t first = 0, end = 0; ///< of the points
     double pixels = 0.0;
-    float least_lit = std::numeric_limits<float>::infinity(), most_lit = 0.0F;
+    float min_lit = std::numeric_limits<float>::infinity(), max_lit = 0.0F;
   };
 
   Range range_of(std::size_t first, std::size_t end, double edge) const;

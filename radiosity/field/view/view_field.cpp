@@ -2,6 +2,7 @@
 
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/field/view/cell_lookup.h"
+#include "radiosity/field/view/curve_places.h"
 #include "radiosity/field/view/lattice_cells.h"
 #include "radiosity/field/view/seen_cells.h"
 #include "radiosity/field/view/view_receivers.h"
@@ -15,8 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace meninas {
@@ -24,9 +25,9 @@ namespace meninas {
 namespace {
 
 using Workspaces = tbb::enumerable_thread_specific<SharedLightWorkspace>;
-using OccludersOfImages = std::unordered_map<std::uint64_t, ImageBlockers>;
+using OccludersOfImages = std::unordered_map<std::uint64_t, ImageOccluders>;
 
-/// What a vertex of the cells has, W/m^2.
+/// The light at a vertex of the cells, W/m^2.
 struct VertexLight {
   glm::vec3 direct{0.0F}, direct_mirrored{0.0F};
   glm::vec3 indirect{0.0F}, indirect_mirrored{0.0F};
@@ -49,10 +50,13 @@ struct VertexRows {
   std::vector<std::size_t> begin; ///< rows + 1
 };
 
-VertexRows rows_from(std::size_t first, const std::vector<LatticeVertex>& all) {
+/// Of the vertices from that number on, those that are lit themselves.
+VertexRows rows_from(std::size_t first, const std::vector<LatticeVertex>& all,
+                     const CurvePlaces& places) {
   VertexRows rows;
-  rows.vertices.resize(all.size() - first);
-  std::iota(rows.vertices.begin(), rows.vertices.end(), static_cast<std::uint32_t>(first));
+  for (auto v = static_cast<std::uint32_t>(first); v < all.size(); ++v)
+    if (places.first_of(v) == v)
+      rows.vertices.push_back(v);
   const auto element_of = [&](std::uint32_t v) { return index(all[v].element); };
   std::ranges::stable_sort(rows.vertices, {}, element_of);
   for (std::size_t k = 0; k < rows.vertices.size(); ++k)
@@ -66,7 +70,8 @@ class ViewRefiner {
 public:
   ViewRefiner(const IrradianceField& field, SeenCells seen, const ViewRefinement& how, const Progress& progress)
       : progress_(progress), field_(field), mesh_(field.mesh()), light_(*field.scene), how_(how), seen_(std::move(seen)),
-        cells_(seen_.lattice()), blockers_(seen_.roots()) {}
+        cells_(seen_.lattice()), blockers_(seen_.roots()),
+        places_(light_, cells_) {}
 
   ViewField refined() {
     light_from(0);
@@ -86,13 +91,14 @@ public:
   }
 
 private:
-  /// Light at the vertices from that number on. What blocks rays to an element's vertices is known to
-  /// those that come after, of the same element, in their order.
+  /// Light at the vertices from that number on. Occluders met by rays to an element's vertices are cached for
+  /// later vertices of the same element, in their order.
   void light_from(std::size_t first) {
-    constexpr std::size_t most_kept = 64;
+    constexpr std::size_t max_kept = 64;
     const auto& vertices = cells_.vertices();
     lights_.resize(vertices.size());
-    const VertexRows rows = rows_from(first, vertices);
+    places_.find_new();
+    const VertexRows rows = rows_from(first, vertices, places_);
     tbb::parallel_for(std::size_t{0}, rows.begin.size() - 1, [&](std::size_t row) {
       SharedLightWorkspace& work = workspaces_.local();
       const std::size_t begin = rows.begin[row], end = rows.begin[row + 1];
@@ -104,15 +110,32 @@ private:
           progress_("render", 0.0);
         light_vertex(rows.vertices[k], work);
       }
-      // What nothing has been learned of takes room alone, and so do more images than few vertices need.
+      // Images without a cached occluder only take room, and so do more images than few vertices need.
       std::erase_if(work.blockers_of, [](const auto& image) { return image.second.learned == 0; });
-      if (work.blockers_of.size() > most_kept)
+      if (work.blockers_of.size() > max_kept)
         work.blockers_of.clear();
       std::swap(work.blockers_of, known);
+    });
+    tbb::parallel_for(first, vertices.size(), [&](std::size_t v) {
+      if (const std::uint32_t lit = places_.first_of(v); lit != v)
+        take_direct(lights_[lit], lights_[v]);
+      take_indirect(vertices[v], lights_[v]);
     });
     tbb::parallel_for(first, vertices.size(),
                       [&](std::size_t v) { find_surplus(static_cast<std::uint32_t>(v)); });
     forget_but(rows);
+  }
+
+  static void take_direct(const VertexLight& from, VertexLight& light) {
+    std::tie(light.direct, light.direct_mirrored, light.punctual, light.error) =
+        std::tie(from.direct, from.direct_mirrored, from.punctual, from.error);
+  }
+
+  void take_indirect(const LatticeVertex& vertex, VertexLight& light) const {
+    const ElementPoint at{vertex.element, cells_.place_in_element(vertex)};
+    light.indirect = value_in(mesh_, field_.indirect, at);
+    if (!field_.indirect_mirrored.empty())
+      light.indirect_mirrored = value_in(mesh_, field_.indirect_mirrored, at);
   }
 
   /// Elements to which nothing was added will hardly be divided again.
@@ -129,11 +152,10 @@ private:
     constexpr int rounds = 8;
     constexpr std::uint32_t times_learned = 4;
     const Receiver receiver = receiver_of(light_, cells_, vertex);
-    // What the plane of an element cannot see, the curve over it may.
-    const ElementId element =
-        receiver.plane_class == none<PlaneId> ? none<ElementId> : vertex.element;
+    // The curve over an element may see light that its plane cannot see.
+    const ElementId element = is_on_curve(receiver) ? none<ElementId> : vertex.element;
     const SharedLightSettings settings{.points = 1,
-                                       .most_points = pixels > 4.0   ? rounds
+                                       .max_points = pixels > 4.0   ? rounds
                                                       : pixels > 1.5 ? rounds / 2
                                                                      : rounds / 4,
                                        .images = how_.images,
@@ -142,9 +164,9 @@ private:
                                        .solid_rays = how_.solid_rays,
                                        .unsure = 1.0,
                                        .unsure_shadow = 0.1 * how_.tolerance,
-                                       .brightest_most = true,
+                                       .rays_by_brightness = true,
                                        .one_place = true,
-                                       .learns = true};
+                                       .caches_occluders = true};
     // Each time by other rays: those that have taught what blocks them have missed the rest.
     const auto found = [&](std::uint32_t time) {
       std::uint32_t next = 0;
@@ -156,7 +178,7 @@ private:
           settings, seed_of(mesh_, vertex, hash(how_.seed, time)), work);
     };
     ArrivingLight light = found(0);
-    for (std::uint32_t time = 1; time <= times_learned && work.has_learned; ++time)
+    for (std::uint32_t time = 1; time <= times_learned && work.has_new_occluders; ++time)
       light = found(time);
     return light;
   }
@@ -164,10 +186,6 @@ private:
   void light_vertex(std::uint32_t v, SharedLightWorkspace& work) {
     const LatticeVertex& vertex = cells_.vertices()[v];
     VertexLight& light = lights_[v];
-    const ElementPoint at{vertex.element, cells_.place_in_element(vertex)};
-    light.indirect = value_in(mesh_, field_.indirect, at);
-    if (!field_.indirect_mirrored.empty())
-      light.indirect_mirrored = value_in(mesh_, field_.indirect_mirrored, at);
     const ArrivingLight d = direct_at(vertex, seen_.pixels_of_vertex(v), work);
     light.direct = glm::vec3(d.total);
     light.direct_mirrored = glm::vec3(d.mirrored);
@@ -175,7 +193,7 @@ private:
     light.error = static_cast<float>(work.shadow_error);
   }
 
-  /// What D at a vertex has that its neighbours do not tell, beyond twice the error of the difference.
+  /// The surplus of D at a vertex over the mean of its neighbours, beyond twice the error of the difference.
   void find_surplus(std::uint32_t v) {
     const auto [a, b, c, e] = cells_.vertices()[v].between;
     if (a == v)
@@ -227,7 +245,7 @@ private:
 
   /// Whether the points in a cell, and its corners, receive different light from punctual lights.
   bool has_edge_of_points(std::uint32_t number, float alike) const {
-    float least = seen_.least_lit(number), most = seen_.most_lit(number);
+    float least = seen_.min_lit(number), most = seen_.max_lit(number);
     if (least > most)
       return false;
     const LatticeCell& cell = cells_.cells()[number];
@@ -246,7 +264,7 @@ private:
            pixels > how_.finest;
   }
 
-  /// Of cells that were made with the last vertices.
+  /// Whether a cell that was made with the last vertices is to be divided.
   bool tells_to_divide(std::uint32_t number, bool first) const {
     constexpr float spread_to_surplus = 4.0F;
     const double narrow_shadow = 0.5 * std::min(seen_.apart(), 1.0); // pixels
@@ -339,6 +357,7 @@ private:
   SeenCells seen_;
   const LatticeCells& cells_;               ///< of what is seen
   std::vector<OccludersOfImages> blockers_; ///< by root
+  CurvePlaces places_;
   std::vector<VertexLight> lights_;         ///< by vertex of the cells
   std::vector<std::uint8_t> ends_;          ///< likewise
   float dark_ = 0.0F;                       ///< H_dark

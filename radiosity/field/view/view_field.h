@@ -2,8 +2,8 @@
 //
 // Radiosity that is found for a view is importance-driven (Smits, Arvo, Salesin 1992): where nobody looks nothing is
 // refined. Elements are divided where they are seen, each by itself (lattice_cells.h), while they are wider than
-// `coarse` pixels. Those wider than a pixel are divided while direct light D at a new vertex
-// differs from the mean of what it is in the middle of by more than its noise and a share of all light H there,
+// `coarse` pixels. Cells wider than a pixel are divided while direct light D at a new vertex
+// differs from the mean D_mean of the vertices it lies between by more than its noise and a share of all light H there,
 //
 //   abs(D - D_mean) - 2 noise  >  tolerance (H + H_dark)                   the hierarchical surplus.
 //
@@ -48,8 +48,8 @@ struct ViewField {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Points are a pixel apart, or `apart` pixels. Precondition: the field knows its indirect part. How far it is nobody
-/// can tell beforehand: `progress` is told 0 of "render", often, and may end it by throwing.
+/// Points are a pixel apart, or `apart` pixels. Precondition: the field knows its indirect part. The amount of work is
+/// not known beforehand: `progress` is told 0 of "render", often, and may end it by throwing.
 ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, double apart,
                      const ViewRefinement& how, const Progress& progress = {});
 

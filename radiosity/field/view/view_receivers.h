@@ -12,8 +12,14 @@ namespace meninas {
 /// At a point of the view.
 Receiver receiver_of(const LightScene& light, const SeenPoint& point);
 
-/// At a vertex: on borders, and beside what stands in or beside an element, a little inside: 0.02 of the way to the
-/// middle of the cell that it was made for, but by no less than four times what is told apart.
+/// Whether light is received over a curve, by its normal.
+inline bool is_on_curve(const Receiver& receiver) { return receiver.plane_class == none<PlaneId>; }
+
+/// Where a vertex is: x = x(u, v) of its patch, metres.
+Point3 place_of(const LightScene& light, const LatticeCells& cells, const LatticeVertex& vertex);
+
+/// At a vertex. On a border or beside an object it is moved inwards by 2 % of the way to the middle of its
+/// cell, at least four times the scene's tolerance.
 Receiver receiver_of(const LightScene& light, const LatticeCells& cells,
                      const LatticeVertex& vertex);
 

@@ -230,7 +230,7 @@ TEST(ViewField, HasNoCracksBesideSmallerElements) {
   SolvedFloor floor(scene, 1.0);
   floor.scene->mesh = divide_elements(coarse.scene->mesh, floor.scene->surfaces, marked);
   ASSERT_FALSE(floor.scene->mesh.hanging.empty());
-  floor.scene->light = light_scene_on(*floor.scene->light, floor.scene->mesh);
+  floor.scene->light = light_scene_on(floor.scene->light, floor.scene->mesh);
   PassOneSettings settings;
   settings.form_factors.rays = settings.interpolation.rays = 64;
   floor.solution = solve_pass_one(floor.scene->light, settings);
