@@ -117,7 +117,7 @@ function makePainter(gl, data, room, textures) {
     gl.depthMask(true);
     gl.enable(gl.CULL_FACE);
     blend();
-    const followed = new Uint32Array(mostMirrors / 32);
+    const followed = new Uint32Array(maxMirrors / 32);
     for (const child of world.children) if (!child.isBlurred) followed[child.mirror.number >> 5] |= 1 << child.mirror.number % 32;
     gl.uniform4uiv(at["followed[0]"], followed);
     return target;
@@ -245,7 +245,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniform1f(at.skyScale, data.sky ? data.sky.brightness : 1);
     gl.uniform2fv(at.turned, data.sky ? data.sky.turned : [1, 0]);
     ["looks", "sky", "probes", "mirrored", "falseScale"].forEach((name, unit) => gl.uniform1i(at[name], unit));
-    if (at["sheets[0]"]) gl.uniform1iv(at["sheets[0]"], Array.from({ length: mostSheets }, (_, k) => firstSheet + k));
+    if (at["sheets[0]"]) gl.uniform1iv(at["sheets[0]"], Array.from({ length: maxSheets }, (_, k) => firstSheet + k));
     bind(0, looks);
     bind(1, textures.sky ? textures.sky.texture : black);
     bind(2, probePictures, gl.TEXTURE_2D_ARRAY);
@@ -266,7 +266,7 @@ function makePainter(gl, data, room, textures) {
 
   /// Bodies see one another as if for the first time, whatever they showed under other lamps.
   function bodyNumbers() {
-    const numbers = new Float32Array(8 * mostProbes), exposed = 2 ** options.exposure / probeExposed;
+    const numbers = new Float32Array(8 * maxProbes), exposed = 2 ** options.exposure / probeExposed;
     probes.forEach((probe, k) => {
       const isOf = probe.state === room.lamps.state, has = probe.state !== undefined && (isOf || !options.without);
       const factor = has ? times(isOf ? [1, 1, 1] : ratioOf(probe, room.ambient), exposed) : [0, 0, 0];
@@ -329,7 +329,7 @@ function makePainter(gl, data, room, textures) {
   /// The room alone, for a probe.
   function paintFace(camera, without) {
     const place = 4, root = rootWorld(camera);
-    options = { width: probeSize, height: probeSize, samples: mostSamples, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
+    options = { width: probeSize, height: probeSize, samples: maxSamples, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
     plan([root]);
     begin();
     drawTrees([root], place);

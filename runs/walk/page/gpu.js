@@ -2,7 +2,7 @@
 "use strict";
 
 /// Of a pixel.
-const mostSamples = 4;
+const maxSamples = 4;
 
 /// Throws a sentence for the user where the browser cannot do it.
 function openGpu(canvas) {

@@ -4,13 +4,15 @@
 /// How each pixel of the screen is drawn: by so many along each side, and so many samples of each of those; and how many rays a
 /// rough surface follows for one. Coarse pictures, the first of all, are of four pixels in place of four samples: as smooth, and
 /// software that draws compiles less for them; but where the shader of a room is long, four pixels take longer.
-const ways = { coarse: { block: 2, samples: 1, facets: 12 }, plain: { block: 1, samples: mostSamples, facets: 12 },
-  fine: { block: 2, samples: mostSamples, facets: 24 }, shot: { block: 4, samples: mostSamples, facets: 96 } };
+const ways = { coarse: { block: 2, samples: 1, facets: 12 }, plain: { block: 1, samples: maxSamples, facets: 12 },
+  fine: { block: 2, samples: maxSamples, facets: 24 }, shot: { block: 4, samples: maxSamples, facets: 96 } };
 
 const coarseWay = ({ bodies, rough }) => bodies || rough ? ways.plain : ways.coarse;
+/// The first picture of all has a quarter of the pixels, so that it is there sooner.
+const firstWay = needs => ({ ...coarseWay(needs), block: 1 });
 
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
-const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
+const maxWorlds = 128, maxWorldsOfShot = 1024, slowFrame = 80, maxPixels = 1 << 24;
 
 /// The room of some data, and its images for the graphics card. `change` gets its tables first, and `meanwhile` is done before.
 async function readShown(gl, data, change, meanwhile) {
@@ -36,7 +38,7 @@ async function openPage(data, told = {}) {
   const { room, textures } = await readShown(gl, data, told.tables, () => paintNothing(gl, data));
   let painter = makePainter(gl, data, room, textures);
   const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
-  const mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
+  const maxWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
     most: Math.ceil(clamped(8e5 / room.tables.triangles.length, 1, 8)), coarse: true, slow: true };
   let waiting = true, moving = true, last = 0, rest = 0;
@@ -74,29 +76,30 @@ async function openPage(data, told = {}) {
   function paintNow(way, most, coarse = false) {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
     let { block } = way;
-    while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
+    while (block > 1 && (Math.max(width, height) * block > maxWide || width * height * block * block > maxPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const figures = painter.paint(motion.view(width / height), { ...shows, ...way, width, height, block, most, exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
-    painter.check();
     return { ...figures, milliseconds: performance.now() - before };
   }
   function frame(now) {
     waiting = false;
     const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
     last = now;
-    const figures = moving ? paintNow(shows.coarse ? coarseWay(room.needs) : ways.plain, shows.most, shows.coarse)
-      : paintNow(shows.slow ? ways.plain : ways.fine, Math.min(mostWorlds, 4 * shows.most));
+    const isFirst = !document.body.classList.contains("shown"), coarse = isFirst ? firstWay(room.needs) : coarseWay(room.needs);
+    const figures = moving ? paintNow(shows.coarse ? coarse : ways.plain, shows.most, shows.coarse)
+      : paintNow(shows.slow ? ways.plain : ways.fine, Math.min(maxWorlds, 4 * shows.most));
     if (moving) keepPace(figures);
     else shows.slow = figures.milliseconds > 4 * slowFrame;
     // At rest there is time for more worlds.
-    if (!moving && figures.cut && !shows.slow && shows.most < mostWorlds) {
+    if (!moving && figures.cut && !shows.slow && shows.most < maxWorlds) {
       shows.most *= 2;
       setTimeout(() => askForFrame(false), 0);
     }
     // Then for what curved and rough bodies show.
     if (!moving && painter.fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     document.body.classList.add("shown");
+    painter.check();
     panel.figures(figures);
     dimmers.show();
     panel.show({ ...shows, instead: Boolean(room.instead), mode: motion.state.mode, exposure: motion.state.exposure });
@@ -111,7 +114,7 @@ async function openPage(data, told = {}) {
       if (shows.coarse && worlds > 2) shows.most = Math.max(2, Math.ceil(worlds * 0.7));
       shows.coarse = true;
     } else if (milliseconds < 0.3 * slowFrame) {
-      if (cut) shows.most = Math.min(mostWorlds, shows.most + 4);
+      if (cut) shows.most = Math.min(maxWorlds, shows.most + 4);
       else if (milliseconds < 0.1 * slowFrame) shows.coarse = false;
     }
   }
@@ -226,8 +229,9 @@ async function openPage(data, told = {}) {
     return page;
   }
   canvas.style.width = canvas.style.height = "auto";
-  for (let k = 0; k < mostProbes && painter.fillNextProbe();) ++k;
-  const figures = paintNow(ways.shot, mostWorldsOfShot);
+  for (let k = 0; k < maxProbes && painter.fillNextProbe();) ++k;
+  const figures = paintNow(ways.shot, maxWorldsOfShot);
+  painter.check();
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");
   return page;

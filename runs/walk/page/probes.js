@@ -4,7 +4,7 @@
 "use strict";
 
 /// Bodies beyond so many show the mean light of the room.
-const mostProbes = 12, probeSize = 128;
+const maxProbes = 12, probeSize = 128;
 
 /// Right, up and forward of the squares of a cube, as cube maps have them, +X, -X, +Y, -Y, +Z, -Z.
 const cubeFrames = [[[0, 0, -1], [0, -1, 0], [1, 0, 0]], [[0, 0, 1], [0, -1, 0], [-1, 0, 0]], [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
@@ -19,7 +19,7 @@ function findProbes(room) {
     body.count += run.count;
     bodies.set(run.node, body);
   }
-  const probes = [...bodies.values()].sort((a, b) => b.count - a.count).slice(0, mostProbes);
+  const probes = [...bodies.values()].sort((a, b) => b.count - a.count).slice(0, maxProbes);
   for (const probe of probes) {
     const boxes = probe.runs.map(run => boxOf(room.tables, run)), outermost = (most, end) => [0, 1, 2].map(axis => most(...boxes.map(box => box[end][axis])));
     const low = outermost(Math.min, "low"), high = outermost(Math.max, "high");

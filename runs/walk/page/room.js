@@ -21,17 +21,17 @@ function joinedRuns(data, tables, batches) {
 }
 
 /// Whether it shows what its middle sees: of rough mirrors beside what their world's picture has.
-const leastRough = 0.03;
-const isBody = look => look.kind >= kinds.curved || (look.kind === kinds.mirror && look.roughness > leastRough);
+const minRough = 0.03;
+const isBody = look => look.kind >= kinds.curved || (look.kind === kinds.mirror && look.roughness > minRough);
 
 /// Textures by as many as one draw can show. Gives every batch the group that has both of its textures.
-const mostSheets = 8;
+const maxSheets = 8;
 function groupSheets(batches) {
   const groups = [];
   for (const batch of batches) {
     const needed = [...new Set([batch[1], batch[2]])].filter(texture => texture >= 0);
     const joined = ({ units }) => [...new Set([...units, ...needed])];
-    batch.group = groups.find(group => joined(group).length <= mostSheets);
+    batch.group = groups.find(group => joined(group).length <= maxSheets);
     if (!batch.group) groups.push(batch.group = { units: [] });
     batch.group.units = joined(batch.group);
   }
@@ -46,12 +46,12 @@ function sheetsOf(data) {
 
 /// Triangles that are next to one another in the file are next to one another in the room: so many of a batch are left out
 /// together where their box is not seen. A pane is one part: it is drawn in its turn.
-const leastOfPart = 512, mostParts = 1024;
-function partsOf(tables, [section, , , , , first, count], margin) {
-  const step = section === sections.pane ? count : Math.max(leastOfPart, Math.ceil(tables.triangles.length / 3 / mostParts)), parts = [];
+const minOfPart = 512, maxParts = 1024;
+function partsOf(tables, [section, , , , , first, count]) {
+  const step = section === sections.pane ? count : Math.max(minOfPart, Math.ceil(tables.triangles.length / 3 / maxParts)), parts = [];
   for (let from = first; from < first + count; from += step) {
     const part = { first: from, count: Math.min(step, first + count - from) };
-    parts.push({ ...part, ...boxOf(tables, part, margin) });
+    parts.push({ ...part, ...boxOf(tables, part) });
   }
   return parts;
 }
@@ -59,14 +59,14 @@ function partsOf(tables, [section, , , , , first, count], margin) {
 /// What a page's shader has to have: only that is compiled. It is known before the tables are read.
 function needsOf(data) {
   const { looks, batches } = data, groups = groupSheets(batches), has = name => data.tables.some(table => table.name === name);
-  return { groups, bodies: looks.some(isBody), rough: looks.some(({ kind, roughness }) => (kind === kinds.mirror || kind === kinds.coat) && roughness > leastRough),
+  return { groups, bodies: looks.some(isBody), rough: looks.some(({ kind, roughness }) => (kind === kinds.mirror || kind === kinds.coat) && roughness > minRough),
     panes: batches.some(batch => batch[0] === sections.pane), sky: Boolean(data.sky), colours: has("colour"), sheets: sheetsOf(data) };
 }
 
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
-/// The box around triangles, so much larger than they are.
-function boxOf({ points, triangles }, { first, count }, margin = 0) {
+/// The box around triangles.
+function boxOf({ points, triangles }, { first, count }) {
   let [a, b, c] = [Infinity, Infinity, Infinity], [d, e, f] = [-Infinity, -Infinity, -Infinity];
   for (let k = 3 * first; k < 3 * (first + count); ++k) {
     const v = 3 * triangles[k], x = points[v], y = points[v + 1], z = points[v + 2];
@@ -77,7 +77,15 @@ function boxOf({ points, triangles }, { first, count }, margin = 0) {
     if (y > e) e = y;
     if (z > f) f = z;
   }
-  return { low: [a - margin, b - margin, c - margin], high: [d + margin, e + margin, f + margin] };
+  return { low: [a, b, c], high: [d, e, f] };
+}
+
+/// The box around all parts, which themselves become larger by a hundred thousandth of it: rounding leaves none of them out.
+function boxOfParts(parts) {
+  const most = (which, end) => [0, 1, 2].map(axis => parts.reduce((x, part) => which(x, part[end][axis]), which()));
+  const low = most(Math.min, "low"), high = most(Math.max, "high"), margin = 1e-5 * lengthOf(minus(high, low));
+  for (const part of parts) [part.low, part.high] = [part.low.map(x => x - margin), part.high.map(x => x + margin)];
+  return { low, high };
 }
 
 function middleOf(tables, run) {
@@ -138,8 +146,8 @@ function makeBacks({ points, triangles }, count) {
 
 function readRoom(data, tables) {
   tables.points = inUnits(tables.position, data.step);
-  const { low, high } = boxOf(tables, { first: 0, count: tables.triangles.length / 3 }), margin = 1e-5 * lengthOf(minus(high, low));
-  data.batches.forEach(batch => { batch.parts = partsOf(tables, batch, margin); });
+  data.batches.forEach(batch => { batch.parts = partsOf(tables, batch); });
+  const { low, high } = boxOfParts(data.batches.flatMap(batch => batch.parts));
   const needs = needsOf(data), runs = joinedRuns(data, tables, data.batches);
   const room = { needs, groups: needs.groups, data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
   room.opaque = runs.filter(run => run.section !== sections.pane);
@@ -152,7 +160,7 @@ function readRoom(data, tables) {
   room.probes = findProbes(room);
   room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number, ...roughnessOf(data, tables, mirror, number),
     runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)) }))
-    .filter(mirror => mirror.runs.length && mirror.number < mostMirrors);
+    .filter(mirror => mirror.runs.length && mirror.number < maxMirrors);
   // Only mirrors show what is black from behind.
   room.backs = makeBacks(tables, room.mirrors.length ? data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0) : 0);
   return room;
@@ -162,7 +170,7 @@ function readRoom(data, tables) {
 function roughnessOf(data, tables, mirror, number) {
   const batch = data.batches.find(b => b[3] === number);
   const roughness = mirror.kind === "pane" || !batch ? 0 : lookOf(data, tables, batch).roughness;
-  return { rough: roughness > leastRough, alpha: roughness ** 2 };
+  return { rough: roughness > minRough, alpha: roughness ** 2 };
 }
 
 /// The node and the look of a triangle.

@@ -5,7 +5,7 @@
 /// Looks that no material has: windows of worlds on the screen, the sky around the eye, black backs.
 const looksBeside = { window: 65535, sky: 65534, back: 65533 };
 /// Mirrors beyond that many are not followed.
-const mostMirrors = 2048;
+const maxMirrors = 2048;
 
 /// Only what the room has is compiled and carried to its pixels: where the processor draws, compiling takes longer than a frame.
 const onlyWhatItHas = ({ bodies, rough, panes, colours, sheets }) => `#version 300 es
@@ -27,7 +27,7 @@ layout(location = 6) in uvec4 numbers; // of its mirror, its body, and the units
 uniform mat4 viewProjection;
 uniform vec3 eye, pixelRight, pixelUp; // the sides of a pixel at distance one
 uniform float depthFactor; // depth is a constant less this by the distance along the view
-uniform uvec4 followed[${mostMirrors / 128}]; // a bit for each mirror with a picture of what it shows here
+uniform uvec4 followed[${maxMirrors / 128}]; // a bit for each mirror with a picture of what it shows here
 invariant gl_Position;
 out vec3 place, light;
 flat out int look, isFollowed;
@@ -61,7 +61,7 @@ void main() {
   units = ivec2(numbers.zw) - 1;
 #endif
   uint mirror = numbers.x - 1u;
-  isFollowed = numbers.x > 0u && numbers.x <= ${mostMirrors}u && (followed[mirror >> 7u][(mirror >> 5u) & 3u] >> (mirror & 31u) & 1u) != 0u ? 1 : 0;
+  isFollowed = numbers.x > 0u && numbers.x <= ${maxMirrors}u && (followed[mirror >> 7u][(mirror >> 5u) & 3u] >> (mirror & 31u) & 1u) != 0u ? 1 : 0;
   if (look == ${looksBeside.sky}) place += eye;
   gl_Position = viewProjection * vec4(place, 1.0);
   if (look == ${looksBeside.sky}) gl_Position.z = gl_Position.w; // behind all else, and never before the near plane
@@ -111,7 +111,7 @@ ${of.map(k => `  if (unit == ${k}) texel = ${how(`sheets[${k}]`)};`).join("\n")}
 /// texels. Beyond the middles of a square's outer texels it is what they are.
 const bodySees = `
 uniform sampler2DArray probes;
-uniform vec4 bodies[${2 * mostProbes}]; // place and thickness, factor and whether it has a picture
+uniform vec4 bodies[${2 * maxProbes}]; // place and thickness, factor and whether it has a picture
 #define hasBody (body >= 0 && bodies[2 * max(body, 0) + 1].w > 0.0)
 vec3 bodyPlace() { return bodies[2 * max(body, 0)].xyz; }
 vec3 bodyScale() { return bodies[2 * max(body, 0) + 1].rgb; }

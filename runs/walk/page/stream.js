@@ -4,7 +4,7 @@
 "use strict";
 
 /// Points of windows in a frame. Where they do not fit beside what the worlds to come need, a world's windows are as one.
-const mostWindowPoints = 32768, pointsOfOne = 16;
+const maxWindowPoints = 32768, pointsOfOne = 16;
 
 /// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows. By way of an odd number
 /// of mirrors triangles are seen the other way round, and are there that way, so that fronts are fronts in every world: what
@@ -13,7 +13,7 @@ function placesBeside({ tables, backs, mirrors }) {
   const vertices = tables.points.length / 3, triangles = tables.triangles.length / 3;
   const sky = vertices + backs.of.length, window = sky + 8;
   const rows = triangles + backs.count + 12;
-  return { vertices, back: vertices, sky, window, all: window + mostWindowPoints, backTriangle: triangles, skyTriangle: triangles + backs.count,
+  return { vertices, back: vertices, sky, window, all: window + maxWindowPoints, backTriangle: triangles, skyTriangle: triangles + backs.count,
     rows, windowTriangle: mirrors.length ? 2 * rows : rows };
 }
 
@@ -56,7 +56,7 @@ function makeStream(gl, room, positions) {
     fixed[to + 2] = fixed[k + 2];
   }
   for (const buffer of [drawn, all]) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer); // what they are for is told by this
-  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * mostWindowPoints), gl.STATIC_DRAW);
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * maxWindowPoints), gl.STATIC_DRAW);
   gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 0, fixed);
   let ranges, count, from, points, fans, capacity = 0;
 
@@ -71,7 +71,7 @@ function makeStream(gl, room, positions) {
   /// What is seen of a world, of so many still to come: backs of triangles there, so that they mark the stencil.
   function window(world, size, toCome) {
     let polygons = windowsOnScreen(world, size);
-    const left = mostWindowPoints - points.length / 3 - pointsOfOne * toCome;
+    const left = maxWindowPoints - points.length / 3 - pointsOfOne * toCome;
     if (polygons.reduce((sum, p) => sum + p.length, 0) > left) polygons = [hullOf(polygons.flat())];
     if (polygons[0].length > left) polygons = windowsOnScreen({ windows: null }, size);
     for (const polygon of polygons) {

@@ -108,7 +108,7 @@ function visibleWorlds(room, camera, most, followed, blurs) {
       const windows = windowsSeen(mirror, world);
       if (!windows.length) continue;
       const throughput = world.throughput * reflectanceSeen(mirror, world.camera.eye, windows);
-      if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
+      if (throughput < room.data.minThroughput || world.depth >= 254) continue;
       if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
       const isBlurred = blurs(mirror), image = behind(world.camera, mirror, windows, room, isBlurred);
       // What is blurred takes from beyond the window, too.
