@@ -29,7 +29,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   const PassOneSettings pass_one = two_pass_settings(run).pass_one;
   const double before = processor_seconds();
   const auto prepared = prepare_scene(truth.scene, pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), pass_one);
   fmt::print("| `{}` | {:.2f} |", file.stem().string(), processor_seconds() - before);
   for (const DiffuseTerm term :
        {DiffuseTerm::interpolated, DiffuseTerm::direct, DiffuseTerm::gather}) {

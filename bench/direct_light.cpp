@@ -58,7 +58,7 @@ void measure_receivers(benchmark::State& state, const PreparedScene& prepared) {
   std::uint32_t k = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        direct_irradiance(*prepared.light, receivers[k % net], DirectSettings{}, k, work));
+        direct_irradiance(*prepared.light(), receivers[k % net], DirectSettings{}, k, work));
     ++k;
   }
   state.counters["shadow_rays"] =
@@ -116,7 +116,7 @@ Scene without_mirrors(Scene scene) {
 double pass_one_seconds(const Scene& scene, const PassOneSettings& settings) {
   const double start = processor_seconds();
   const auto prepared = prepare_scene(scene, settings);
-  benchmark::DoNotOptimize(solve_pass_one(prepared->light, settings));
+  benchmark::DoNotOptimize(solve_pass_one(prepared->light(), settings));
   return processor_seconds() - start;
 }
 
@@ -159,14 +159,14 @@ void DirectOnElements(benchmark::State& state, const std::string& name) {
   const auto prepared =
       prepare_scene(load_gltf(std::string(MENINAS_BENCH_GALLERY) + name + ".gltf"), settings);
   DirectSettings fine = settings.direct;
-  fine.points = fine.most_points = 2048;
+  fine.points = fine.max_points = 2048;
   fine.rays_in_element = 4;
   fine.seed = 1;
-  const DirectIrradiance truth = direct_irradiance(*prepared->light, {}, fine);
+  const DirectIrradiance truth = direct_irradiance(*prepared->light(), {}, fine);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   DirectIrradiance means;
   for (auto _ : state)
-    means = direct_irradiance(*prepared->light, {}, settings.direct);
+    means = direct_irradiance(*prepared->light(), {}, settings.direct);
   const MeanErrors errors = errors_of(means.irradiance, truth.irradiance);
   state.counters["rms"] = errors.rms;
   state.counters["worst"] = errors.worst;

@@ -67,7 +67,7 @@ Tally measure_scene(const std::filesystem::path& references, const std::filesyst
     const Camera& camera = prepared->scene.cameras.empty()
                                ? default_camera(bounds_of(prepared->scene))
                                : prepared->scene.cameras.front();
-    const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+    const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
     const LightScene& lit = *solution.field.scene;
     const auto emits = emitter_pixels(solution.field, camera, settings.render, truth.mean, 16);
     for (const auto& [term, samples] : sweep.pictures) {

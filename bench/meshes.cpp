@@ -48,12 +48,12 @@ Measured measure(const Scene& scene, const Truth& truth, int rays, TwoPassSettin
   settings.render.height = truth.mean.height;
   settings.render.samples = samples;
   double seconds = std::numeric_limits<double>::infinity(), all = 0.0;
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   RadiositySolution solution;
   for (int run = 0; run < max_runs && all < enough_seconds; ++run) {
     const double before = processor_seconds();
     prepared = prepare_scene(scene, settings.pass_one);
-    solution = solve_pass_one(prepared->light, settings.pass_one);
+    solution = solve_pass_one(prepared->light(), settings.pass_one);
     const double taken = processor_seconds() - before;
     seconds = std::min(seconds, taken);
     all += taken;

@@ -91,11 +91,11 @@ void run(const char* file, int samples, int largest) {
   chosen.samples = samples;
   const TwoPassSettings settings = two_pass_settings(chosen);
   const auto prepared = prepare_scene(load_gltf(file), settings.pass_one);
-  const LightScene& light = *prepared->light;
+  const LightScene& light = *prepared->light();
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const IrradianceField field = solve_pass_one(prepared->light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(prepared->light(), settings.pass_one).field;
   const BareScene bare = make_bare_scene(light.rays.geometry(), RTC_SCENE_FLAG_NONE);
   fmt::print("{}: {} triangles, {} samples a pixel; million rays/s on one thread\n"
              "{:>6} {:>10} {:>12} {:>12} {:>12} {:>12}\n",

@@ -57,7 +57,7 @@ KnownScene known_scene(const std::filesystem::path& references, const std::files
   const RenderSettings render = render_settings(coarse, known.size());
   const TwoPassSettings settings = two_pass_settings(coarse);
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
   constexpr int samples = 16;
   known.emits = emitter_pixels(solution.field, known.camera, render, known.truth.mean, samples);
   return known;

@@ -76,7 +76,7 @@ System system_of(const char* file, double target_elements, const RunSettings& ru
   System system;
   system.seconds_of_factors = seconds_of([&] {
     system.transport =
-        assemble_transport(*prepared->light, settings.pass_one.form_factors).transport;
+        assemble_transport(*prepared->light(), settings.pass_one.form_factors).transport;
   });
   // Solvers only care for the pattern: a little light everywhere, walls as they are.
   system.reflectance = prepared->mesh.reflectance;
@@ -203,7 +203,7 @@ void grow_shots(const char* file) {
     settings.interpolation.method = Interpolation::average;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
-    const RadiositySolution solution = shoot_pass_one(prepared->light, settings);
+    const RadiositySolution solution = shoot_pass_one(prepared->light(), settings);
     sizes.push_back({static_cast<double>(element_count(prepared->mesh)),
                      {{"shots", static_cast<double>(solution.solver.iterations)},
                       {"s of shots", solution.seconds.solve},
@@ -223,7 +223,7 @@ void grow_nodes(const char* file) {
     settings.cut = MeshCut::hierarchical;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
-    const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+    const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
     const auto elements = static_cast<double>(element_count(prepared->mesh));
     sizes.push_back({elements,
                      {{"receivers", static_cast<double>(solution.links->receivers)},

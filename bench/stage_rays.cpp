@@ -33,9 +33,9 @@ struct PacketFiller {
 
 /// Follows rays behind every mirror they meet.
 void add_reflected(const LightScene& light, Backs backs, StageRays& rays) {
-  constexpr int most_mirrors = 32;
+  constexpr int max_mirrors = 32;
   std::vector<RayPacket> current = rays.first;
-  for (int mirror = 0; mirror < most_mirrors && !current.empty(); ++mirror) {
+  for (int mirror = 0; mirror < max_mirrors && !current.empty(); ++mirror) {
     std::vector<RayPacket> next;
     PacketFiller filler{next};
     for (const RayPacket& packet : current) {

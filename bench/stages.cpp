@@ -54,11 +54,11 @@ void run(const char* file) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const TwoPassSettings settings = two_pass_settings(RunSettings{});
   const auto prepared = prepare_scene(load_gltf(file), settings.pass_one);
-  const LightScene& light = *prepared->light;
+  const LightScene& light = *prepared->light();
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const IrradianceField field = solve_pass_one(prepared->light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(prepared->light(), settings.pass_one).field;
   const FormFactorSettings& form_factors = settings.pass_one.form_factors;
 
   const StageRays gathered = gather_rays_of(light, form_factors.rays, packet_count);

@@ -90,7 +90,7 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   const double begin = processor_seconds();
   const auto prepared = prepare_scene(scene, two_pass.pass_one);
   const double prepared_at = processor_seconds();
-  const RadiositySolution solution = solve_pass_one(prepared->light, two_pass.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), two_pass.pass_one);
   const double pass_one = processor_seconds() - prepared_at;
   m.prepare = prepared_at - begin;
   const PassOneSeconds& clock = solution.seconds;
@@ -122,28 +122,28 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   return m;
 }
 
-struct PictureKnobs {
+struct PictureParameters {
   DiffuseTerm term = DiffuseTerm::interpolated;
   int samples = 16;
   std::optional<double> pixel_error = {};
 };
 
-RunSettings drafted(int elements, int rays, const PictureKnobs& knobs) {
+RunSettings drafted(int elements, int rays, const PictureParameters& parameters) {
   RunSettings settings;
   settings.quality = Quality::draft;
   settings.mesh = MeshCut::uniform;
   settings.elements = elements;
   settings.rays = rays;
-  settings.diffuse = knobs.term;
-  settings.samples = knobs.samples;
-  settings.pixel_error = knobs.pixel_error;
+  settings.diffuse = parameters.term;
+  settings.samples = parameters.samples;
+  settings.pixel_error = parameters.pixel_error;
   return settings;
 }
 
 /// The light of lamps left to pixels or not;
 /// elements that gather each for itself, or by as few nodes as it takes, where many cost little.
 std::vector<RunSettings> ladder() {
-  const std::vector<PictureKnobs> at_pixels{{DiffuseTerm::direct, 16, 0.04},
+  const std::vector<PictureParameters> at_pixels{{DiffuseTerm::direct, 16, 0.04},
                                             {DiffuseTerm::direct, 64, 0.02},
                                             {DiffuseTerm::direct, 256, 0.02}},
       at_vertices{{DiffuseTerm::interpolated, 16, {}}, {DiffuseTerm::interpolated, 64, 0.04}};
@@ -151,15 +151,15 @@ std::vector<RunSettings> ladder() {
   for (const int rays : {64, 128, 256}) {
     for (const int elements : {600, 1500, 4000, 10'000})
       for (const auto& choices : {at_vertices, at_pixels})
-        for (const PictureKnobs& knobs : choices) {
-          all.push_back(drafted(elements, rays, knobs));
-          if (knobs.term == DiffuseTerm::direct)
+        for (const PictureParameters& parameters : choices) {
+          all.push_back(drafted(elements, rays, parameters));
+          if (parameters.term == DiffuseTerm::direct)
             all.back().bends = 0.1; // what is left between vertices are the feet of lit walls
         }
     for (const int elements : {4000, 10'000, 25'000, 64'000})
       for (const auto& choices : {at_vertices, at_pixels})
-        for (const PictureKnobs& knobs : choices) {
-          all.push_back(drafted(elements, rays, knobs));
+        for (const PictureParameters& parameters : choices) {
+          all.push_back(drafted(elements, rays, parameters));
           all.back().mesh = MeshCut::hierarchical;
         }
   }

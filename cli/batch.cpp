@@ -135,11 +135,12 @@ void add_options(Options& command, BatchOptions& options) {
                 const PicturePart part = parse_part("--shard", text);
                 request.shard = {part.number, part.count};
               });
-  command.add(
-      "--memory-limit", "SIZE",
-      "memory that the process may need, such as 4G; fewer pictures run at a time to stay below "
-      "[all the machine has]",
-      [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); });
+  command
+      .add("--memory-limit", "SIZE",
+           "memory that the process may need, such as 4G; fewer pictures run at a time to stay below "
+           "[all the machine has]",
+           [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); })
+      .group(run_group);
   add_allow_external(command, request.gltf);
   command.add("--cache", "DIR", "folder for solutions [.meninas/solutions in the output folder]",
               [&](const std::string& text) { request.cache = text; });
@@ -148,18 +149,23 @@ void add_options(Options& command, BatchOptions& options) {
     print(batch_schema(render_settings_help()));
     throw Answered{};
   });
-  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
-    request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
-  });
-  command.add_flag("--quiet", "print warnings and errors only",
-                   [&] { options.verbosity = Verbosity::quiet; });
+  command
+      .add("--threads", "N", "number of threads [all cores]",
+           [&](const std::string& text) {
+             request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
+           })
+      .group(run_group);
+  command
+      .add_flag("--quiet", "print warnings and errors only",
+                [&] { options.verbosity = Verbosity::quiet; })
+      .group(run_group);
 }
 
 } // namespace
 
 Command add_batch_command(Options& program) {
   Options& command = program.add_command(
-      "batch", "Render many scenes, cameras and settings side by side, resumable");
+      "batch", "Render many scenes, cameras and settings, resumable");
   const auto options = std::make_shared<BatchOptions>();
   command
       .add("JOBS", "", "JSON: scenes, cameras, settings, outputs",

@@ -27,8 +27,8 @@ Command add_walk_command(Options& program);
 Command add_view_command(Options& program);
 Command add_bake_command(Options& program);
 
-/// The program: chooses the command by its arguments, and runs it. Every error is one line, `meninas: FILE: WHERE: WHAT`,
-/// on standard error, and an exit code that says whose fault it is: what is returned.
+/// The program: chooses the command by its arguments, and runs it. Every error is one line, `meninas: FILE: WHERE:
+/// WHAT`, on standard error, and an exit code that says whose fault it is: what is returned.
 int run_program(int argc, char** argv);
 
 } // namespace meninas

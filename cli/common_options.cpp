@@ -12,7 +12,7 @@ namespace meninas {
 namespace {
 
 constexpr const char* pass_one_group = "Accuracy of pass one";
-constexpr int most_steps = 1'000'000'000;
+constexpr int max_steps = 1'000'000'000;
 
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
@@ -106,29 +106,35 @@ void add_scene(Options& command, CommonOptions& options) {
       .required();
   GltfSettings& gltf = options.settings.gltf;
   add_allow_external(command, gltf);
-  command.add(
-      "--memory-limit", "SIZE",
-      fmt::format("refuse a run that would need more memory, such as 800M [{}G to read the scene, "
-                  "all the machine has for the rest]",
-                  gltf.memory_limit >> 30),
-      [&](const std::string& text) {
-        gltf.memory_limit = parse_bytes("--memory-limit", text);
-        options.settings.memory_limit = gltf.memory_limit;
-      });
+  command
+      .add("--memory-limit", "SIZE",
+           fmt::format("refuse a run that would need more memory, such as 800M [{}G to read the scene, "
+                       "all the machine has for the rest]",
+                       gltf.memory_limit >> 30),
+           [&](const std::string& text) {
+             gltf.memory_limit = parse_bytes("--memory-limit", text);
+             options.settings.memory_limit = gltf.memory_limit;
+           })
+      .group(run_group);
 }
 
 void add_allow_external(Options& command, GltfSettings& settings) {
-  command.add_flag("--allow-external",
-                   "read buffers and textures outside the scene's folder [refused]",
-                   [&] { settings.external_files = ExternalFiles::anywhere; });
+  command
+      .add_flag("--allow-external", "read buffers and textures outside the scene's folder [refused]",
+                [&] { settings.external_files = ExternalFiles::anywhere; })
+      .group(file_group);
 }
 
 void add_state_options(Options& command, CommonOptions& options) {
   SceneState& state = options.settings.gltf.state;
-  command.add("--variant", "NAME", "variant of the scene's materials [each primitive's own]",
-              [&](const std::string& text) { state.variant = text; });
-  command.add("--at", "SECONDS", "show the scene's animations at that time [the rest pose]",
-              [&](const std::string& text) { state.at = parse_number("--at", text, Sign::any); });
+  command
+      .add("--variant", "NAME", "variant of the scene's materials [each primitive's own]",
+           [&](const std::string& text) { state.variant = text; })
+      .group(file_group);
+  command
+      .add("--at", "SECONDS", "show the scene's animations at that time [the rest pose]",
+           [&](const std::string& text) { state.at = parse_number("--at", text, Sign::any); })
+      .group(file_group);
 }
 
 void add_quality(Options& command, CommonOptions& options) {
@@ -194,7 +200,7 @@ static void add_solver_options(Options& command, CommonOptions& options) {
   command
       .add("--steps", "N", "stop --solver progressive after N shots [at --tolerance]",
            [&](const std::string& text) {
-             settings.steps = static_cast<int>(parse_integer("--steps", text, 0, most_steps));
+             settings.steps = static_cast<int>(parse_integer("--steps", text, 0, max_steps));
            })
       .group(study_group);
 }
@@ -243,43 +249,56 @@ void add_pass_one_options(Options& command, CommonOptions& options) {
 void add_light_options(Options& command, CommonOptions& options) {
   SceneState& state = options.settings.gltf.state;
   add_sky_options(command, options.settings);
-  command.add("--light-scale", "X",
-              "multiply the intensity of point, spot, directional and area lights, and of luminaires [1]",
-              [&](const std::string& text) {
-                state.light_scale = parse_number("--light-scale", text, Sign::positive);
-              });
+  command
+      .add("--light-scale", "X",
+           "multiply the intensity of point, spot, directional and area lights, and of luminaires [1]",
+           [&](const std::string& text) {
+             state.light_scale = parse_number("--light-scale", text, Sign::positive);
+           })
+      .group(light_group);
   add_choice(command, "--units", units, LightUnits::radiometric,
              "what the file's light is in: W/m^2/sr, W/sr and W/m^2, or cd/m^2, cd and lx",
-             [&](LightUnits chosen) { state.units = chosen; });
-  command.add("--luminous-efficacy", "K",
-              fmt::format("lm/W between photometric and radiometric numbers [{}]",
-                          state.luminous_efficacy),
-              [&](const std::string& text) {
-                state.luminous_efficacy =
-                    parse_number("--luminous-efficacy", text, Sign::positive);
-              });
-  command.add_repeatable("--ies", "LIGHT=FILE",
-                         "put the luminaire of an IES file in place of a point or spot light; may be "
-                         "given several times",
-                         [&](const std::string& text) {
-                           const auto split = text.find('=');
-                           if (split == 0 || split == std::string::npos || split + 1 == text.size())
-                             throw UsageError("--ies", "takes LIGHT=FILE, not '" + text + "'");
-                           state.luminaires[text.substr(0, split)] = text.substr(split + 1);
-                         });
+             [&](LightUnits chosen) { state.units = chosen; })
+      .group(light_group);
+  command
+      .add("--luminous-efficacy", "K",
+           fmt::format("lm/W between photometric and radiometric numbers [{}]",
+                       state.luminous_efficacy),
+           [&](const std::string& text) {
+             state.luminous_efficacy = parse_number("--luminous-efficacy", text, Sign::positive);
+           })
+      .group(light_group);
+  command
+      .add_repeatable("--ies", "LIGHT=FILE",
+                      "put the luminaire of an IES file in place of a point or spot light; may be "
+                      "given several times",
+                      [&](const std::string& text) {
+                        const auto split = text.find('=');
+                        if (split == 0 || split == std::string::npos || split + 1 == text.size())
+                          throw UsageError("--ies", "takes LIGHT=FILE, not '" + text + "'");
+                        state.luminaires[text.substr(0, split)] = text.substr(split + 1);
+                      })
+      .group(light_group);
 }
 
 void add_run_options(Options& command, CommonOptions& options) {
-  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
-    options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
-  });
-  command.add("--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
-              [&](const std::string& text) {
-                options.settings.seed =
-                    static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
-              });
-  command.add_flag("--quiet", "print warnings and errors only",
-                   [&] { options.verbosity = Verbosity::quiet; });
+  command
+      .add("--threads", "N", "number of threads [all cores]",
+           [&](const std::string& text) {
+             options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
+           })
+      .group(run_group);
+  command
+      .add("--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
+           [&](const std::string& text) {
+             options.settings.seed =
+                 static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
+           })
+      .group(run_group);
+  command
+      .add_flag("--quiet", "print warnings and errors only",
+                [&] { options.verbosity = Verbosity::quiet; })
+      .group(run_group);
 }
 
 Option add_file(Options& command, const std::string& option,
@@ -301,7 +320,7 @@ void check_pass_one_options(const Options& command, const RunSettings& settings)
     throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
   }
   if (settings.steps == 0) { // `view` alone takes that
-    throw UsageError("--steps", fmt::format("'0' is not a whole number from 1 to {}", most_steps));
+    throw UsageError("--steps", fmt::format("'0' is not a whole number from 1 to {}", max_steps));
   }
   if (settings.steps && settings.solver != SolverMethod::progressive) {
     throw UsageError("--steps", "has no effect without --solver progressive");

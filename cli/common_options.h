@@ -14,15 +14,12 @@
 
 namespace meninas {
 
-/// The group of options that serve comparison with the literature.
-inline constexpr const char* study_group = "For study";
-
 /// Stands for the preset's number where an option may leave its value out.
 inline constexpr const char* preset_value = "preset";
 
 enum class Verbosity { normal, quiet };
 
-/// What every command has.
+/// The options of every command.
 struct CommonOptions {
   std::filesystem::path scene;
   RunSettings settings;
@@ -31,13 +28,13 @@ struct CommonOptions {
 };
 
 void add_scene(Options& command, CommonOptions& options);
-/// What add_scene adds, for commands that get their scenes otherwise.
+/// The option that add_scene adds, for commands that get their scenes otherwise.
 void add_allow_external(Options& command, GltfSettings& settings);
-/// Which variant of the materials, and which moment of the animations.
+/// The variant of the materials, and the moment of the animations.
 void add_state_options(Options& command, CommonOptions& options);
 void add_quality(Options& command, CommonOptions& options);
 
-/// How finely the scene is divided, and how far mirrors are followed: what a plan depends on too.
+/// The fineness of the mesh and the depth of mirrors, on which a plan depends too.
 void add_mesh_options(Options& command, CommonOptions& options);
 
 /// The rest of pass one.
@@ -46,7 +43,7 @@ void add_pass_one_options(Options& command, CommonOptions& options);
 /// "direct", "gather", ... as `--diffuse` takes them.
 DiffuseTerm parse_diffuse(const std::string& text);
 
-/// What a scene is lit by beyond its own lights.
+/// The light of a scene beyond its own lights.
 void add_light_options(Options& command, CommonOptions& options);
 
 /// Throws UsageError when an option was given that the chosen methods do not obey.

@@ -21,7 +21,7 @@ void run(const MergeOptions& options) {
 
 Command add_merge_command(Options& program) {
   Options& command =
-      program.add_command("merge", "Put the parts of a picture together that render --tile wrote");
+      program.add_command("merge", "Join the parts of a picture that render --tile wrote");
   const auto options = std::make_shared<MergeOptions>();
   MergeRequest& request = options->request;
   command

@@ -14,6 +14,11 @@ class Option;
 
 namespace meninas {
 
+/// Groups of options that many commands have, in the help after those of their own; the last serve comparison with the
+/// literature.
+inline constexpr const char *light_group = "Light", *sky_group = "Sky", *file_group = "File", *run_group = "Run",
+                            *study_group = "For study";
+
 /// Thrown by an option that was a question, such as --version, once it is answered.
 struct Answered {};
 
@@ -73,7 +78,7 @@ public:
   Option add_flag(const std::string& names, const std::string& description,
                   const std::function<void()>& take);
 
-  /// Takes arguments, the last one first. What the takers of values throw is passed on.
+  /// Takes arguments, the last one first. Exceptions of the takers of values are passed on.
   Parsed parse(std::vector<std::string> arguments);
   /// The arguments that nothing took.
   std::vector<std::string> remaining() const;

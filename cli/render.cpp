@@ -111,8 +111,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
                    "make a lamp so many times as bright, or of another colour; with --solution by "
                    "`solve --by-lamp` without solving; `all` is every lamp, the last word counts; "
                    "may be given several times [1]",
-                   options.common.settings.lamp_factors)
-      .group(picture_group);
+                   options.common.settings.lamp_factors);
   add("--samples", "N",
       fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
                   "[draft {}, normal {}, fine {}; no limit]",
@@ -193,8 +192,7 @@ void check_goal(const Options& command, const RenderOptions& options) {
   }
   const char* const goal = options.request.goal->error ? "--error" : "--time";
   if (options.common.settings.mode == PictureMode::reference) {
-    throw UsageError(goal, "is of the two passes: choose --max-error or --max-seconds with --mode "
-                           "reference");
+    throw UsageError(goal, "has no effect with --mode reference: use --max-error or --max-seconds");
   }
   refuse(command, {"--quality", "--solution", "--snapshots", "--error-map"},
          std::string("does not go with ") + goal + ", which chooses for itself");
@@ -208,11 +206,11 @@ void check_tile(const Options& command, const RenderOptions& options) {
   if (!options.common.settings.part)
     return;
   if (options.common.settings.mode == PictureMode::reference)
-    throw UsageError("--tile", "is of the two passes: --mode reference samples all of a picture "
+    throw UsageError("--tile", "does not go with --mode reference, which samples the whole picture "
                                "until its mean is known");
   refuse(command, {"--error-map", "--error", "--time", "--view", "--snapshots"},
-         "is of whole pictures: it does not go with --tile");
-  refuse(command, {"--depth", "--float"}, "is for `meninas merge`: a part is what it is");
+         "needs the whole picture: it does not go with --tile");
+  refuse(command, {"--depth", "--float"}, "does not go with --tile: give it to `meninas merge`");
   if (options.request.pictures.size() != 1 || !has_format(options, PictureFormat::exr))
     throw UsageError("--tile", "needs one output, an EXR: `meninas merge` makes the others");
 }

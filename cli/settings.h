@@ -6,7 +6,7 @@
 
 namespace meninas {
 
-/// What `meninas render SCENE` with these options would render;
+/// The request of `meninas render SCENE` with these options;
 /// outputs, threads and verbosity are not settings.
 /// Throws UsageError "NAME: WHAT" without dashes;
 /// unknown names get the nearest known one as a hint.

@@ -42,7 +42,7 @@ ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Fac
     area += face.area;
   std::vector<std::vector<Estimate>> factors(from.size(),
                                              std::vector<Estimate>(view.targets.size()));
-  // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+  // The loop is isolated from a caller's cancellation, because half of the result would be read.
   tbb::task_group_context alone(tbb::task_group_context::isolated);
   tbb::parallel_for(std::size_t{0}, from.size() * view.targets.size(), [&](std::size_t k) {
     const std::size_t a = k / view.targets.size(), b = k % view.targets.size();

@@ -1,5 +1,4 @@
-// Which pairs of faces see all of each other in the real world,
-// and their form factors in closed form (area_form_factor.h).
+// Unoccluded pairs of faces in the real world, and their form factors in closed form (area_form_factor.h).
 #pragma once
 
 #include "form_factors/point_worlds.h"

@@ -16,8 +16,8 @@ struct Sight {
   PlaneId plane_class = none<PlaneId>;
 };
 
-/// The corners of a polygon. What reaches down to the face's plane throws shadows of any length:
-/// edges towards it have points at falling heights as well.
+/// The corners of a polygon. Objects that reach down to the face's plane throw shadows of any length,
+/// so edges towards it have points at falling heights as well.
 void append_sights(const ConvexPolygon& polygon, const Plane& plane, PlaneId plane_class,
                    const Plane& face, std::vector<Sight>& sights) {
   constexpr double step = 0.25, lowest = 1e-4;
@@ -52,7 +52,7 @@ std::vector<const Face*> asked_targets(const WorldView& view,
   return chosen;
 }
 
-/// What is looked at through the real world: targets, and the windows of mirrors.
+/// The sights of the real world: targets, and the windows of mirrors.
 std::vector<Sight> sights_of(const Face& face, const WorldView& view,
                              const std::vector<std::uint8_t>& known,
                              std::span<const Mirror> mirrors) {
@@ -79,7 +79,7 @@ std::vector<Sight> images_in(const Plane& mirror, const Face& face, const WorldV
   return sights;
 }
 
-/// What stands before a mirror, as it is seen in it.
+/// The edges before a mirror, as they are seen in it.
 std::vector<BlockerEdge> edges_in(const Plane& mirror, const std::vector<BlockerEdge>& edges) {
   std::vector<BlockerEdge> images;
   for (const BlockerEdge& edge : edges) {
@@ -133,7 +133,7 @@ bool is_outline(const BlockerEdge& edge, const Point3& corner) {
   return !(below && above);
 }
 
-/// What of the edge stands between the corner and the face, thrown on the face.
+/// The part of the edge between the corner and the face, projected on the face.
 std::optional<ShadowLine> shadow_of(const BlockerEdge& edge, const Sight& sight, const Plane& face,
                                     double tolerance) {
   // Towards the height of the corner the shadow runs off to infinity.
@@ -298,14 +298,14 @@ std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers) {
   return edges;
 }
 
-void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
+void cut_at_discontinuity_lines(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
                     const LineLimits& limits) {
   // Some tens of parts are needed for a blocker; each has about a hundred points.
-  constexpr std::size_t max_parts = 128, most_mirrors = 16, min_sights = 16;
+  constexpr std::size_t max_parts = 128, max_mirrors = 16, min_sights = 16;
   const std::span<const Mirror> mirrors(
       view.mirrors.mirrors.data(),
-      limits.by_mirrors ? std::min(most_mirrors, view.mirrors.mirrors.size()) : 0);
+      limits.by_mirrors ? std::min(max_mirrors, view.mirrors.mirrors.size()) : 0);
   const std::size_t max_sights =
       limits.max_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
   if (max_sights < min_sights)

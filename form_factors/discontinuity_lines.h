@@ -1,13 +1,15 @@
 // The lines on a face at which the shadows of blockers begin and end, where that is sudden.
 //
-// A corner of what is looked at, an edge of a blocker: the plane through both meets the face
-// in a line, across which what the face sees of the target changes its law. All the corners give
-// an edge a band of such lines, the penumbra; of a blocker close to the face it is as narrow
-// as the gap. Points much further apart than that may miss it altogether,
-// as they do where the band lies along the lines by which a region is divided:
-// with it goes the light of the band, and nothing in the values tells of it.
-// So the face is cut where a band begins and ends. Between cuts everything changes
-// at the scale of the part, and what points of a part do not tell apart is small.
+// The plane through a corner of the target and an edge of a blocker meets the face in a line where the
+// visible part of the target changes its law (a VE discontinuity: Heckbert 1992). With v the corner and a, b the
+// ends of the edge, in metres, the line holds the points p of the face with
+//
+//   (p - v) . ((a - v) x (b - v)) = 0.
+//
+// All corners give one edge a band of lines, the penumbra, as narrow as the blocker's gap to the face. Samples
+// further apart can miss the band and its light, with no sign in their values; so the face is cut where a band
+// begins and ends.
+// Between cuts the visible part changes at the scale of the part of the face, and the samples resolve it.
 #pragma once
 
 #include "form_factors/point_worlds.h"
@@ -30,7 +32,7 @@ struct LineLimits {
   bool by_mirrors;       ///< what is seen by way of one of the view's mirrors is looked at as well
   std::size_t max_lines; ///< where there are more to draw a part of them is, or none
 };
-void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
+void cut_at_discontinuity_lines(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
                     const LineLimits& limits);
 

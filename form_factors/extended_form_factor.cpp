@@ -79,7 +79,7 @@ private:
   }
 
   std::vector<Region> first_regions() const {
-    const std::size_t max_lines = settings_.shadow_lines / std::max<std::size_t>(1, from_.size());
+    const std::size_t max_lines = settings_.max_discontinuity_lines / std::max<std::size_t>(1, from_.size());
     std::vector<BlockerEdge> edges;
     if (view_.blockers.size() < max_lines)
       edges = edges_of(view_.blockers);
@@ -88,7 +88,7 @@ private:
       if (!needs_points(f))
         continue;
       std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], {uses_mirrors(), max_lines});
+      cut_at_discontinuity_lines(parts, from_[f], view_, edges, clear_.known[f], {uses_mirrors(), max_lines});
       for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;
@@ -114,7 +114,7 @@ private:
     return sum;
   }
 
-  /// What may be left out at each point:
+  /// The tail that may be left out at each point:
   /// a part of the wanted accuracy, by a first look from a few points.
   void choose_tail(const std::vector<Region>& regions) {
     constexpr double part = 0.2, first_look = 1e-2, min_factor = 1e-4;
@@ -140,7 +140,7 @@ private:
     for (std::size_t first = 0; first < regions.size(); first += batch_) {
       const std::size_t count = std::min(batch_, regions.size() - first);
       std::vector<WalkResult> walks(count * radon.size());
-      // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+      // The loop is isolated from a caller's cancellation, because half of the result would be read.
       tbb::task_group_context alone(tbb::task_group_context::isolated);
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
@@ -157,14 +157,14 @@ private:
       for (std::size_t r = 0; r < count; ++r)
         combine(regions[first + r].shares);
       points_ += walks.size();
-      // What the points have seen is kept until it is added up:
+      // The views of the points are kept until they are added up:
       // as many at once as memory has room for.
       batch_ = std::clamp<std::size_t>(max_kept * points_ / (radon.size() * (visits_ + 1)), 1,
                                        max_regions);
     }
   }
 
-  /// What a group's total changed by:
+  /// The change of a group's total:
   /// as it adds up, and with the near worlds taken one by one, all others together.
   struct Change {
     double error = 0.0, signed_error = 0.0;

@@ -63,7 +63,7 @@ private:
   std::map<Key, std::uint32_t> places_;
 };
 
-/// What one visit finds: from all of A to each target, and out through each wall.
+/// The result of one visit: form factors from all of A to each target, and out through each wall.
 struct Visit {
   std::vector<Estimate> to_targets;
   std::vector<double> through_walls;
@@ -142,7 +142,7 @@ private:
       chosen.push_back(image);
     }
     std::vector<Visit> found(chosen.size());
-    // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+    // The loop is isolated from a caller's cancellation, because half of the result would be read.
     tbb::task_group_context alone(tbb::task_group_context::isolated);
     tbb::parallel_for(std::size_t{0}, chosen.size(),
                       [&](std::size_t k) { found[k] = visit(images_[chosen[k]]); }, alone);

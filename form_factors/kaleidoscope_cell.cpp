@@ -10,7 +10,7 @@ namespace meninas {
 namespace {
 
 /// More corners or mirrors than rooms and ducts have are left to the general method.
-constexpr std::size_t max_corners = 40, most_mirrors = 12;
+constexpr std::size_t max_corners = 40, max_mirrors = 12;
 
 struct Hull {
   std::vector<Point3> corners;
@@ -151,7 +151,7 @@ Hull hull_of(const WorldView& view, const std::vector<Face>& from) {
 
 std::optional<KaleidoscopeCell> find_kaleidoscope(const WorldView& view,
                                                   const std::vector<Face>& from) {
-  if (view.mirrors.mirrors.empty() || view.mirrors.mirrors.size() > most_mirrors)
+  if (view.mirrors.mirrors.empty() || view.mirrors.mirrors.size() > max_mirrors)
     return std::nullopt;
 
   // All mirrors are in the hull: light that leaves it elsewhere meets none of them again.

@@ -91,7 +91,7 @@ struct Waiting {
   PackedPolygons openings;
 };
 
-/// What of an entered world its children need.
+/// The data of an entered world that its children need.
 struct Entered {
   Isometry image;
   int depth = 0;

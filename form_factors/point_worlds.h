@@ -21,7 +21,7 @@
 
 namespace meninas {
 
-/// What is looked at; refers to objects that outlive it.
+/// The scene as form factors see it; refers to objects that outlive it.
 struct WorldView {
   const MirrorSet& mirrors;
   const std::vector<Face>& blockers;

@@ -1,8 +1,11 @@
-// What a point sees of a convex polygon past opaque convex blockers, exactly.
+// The visible parts of a convex polygon from a point, past opaque convex blockers, exactly.
 //
 // A blocker hides its cone from the point. Convex minus convex is a set of disjoint convex pieces,
-// one for each side of the cone the polygon reaches beyond:
-// subtracting blocker after blocker leaves the visible parts, whose form factors add up.
+// one for each side of the cone the polygon reaches beyond. With h_i the inner half-spaces of the cone's sides,
+//
+//   P - cone = union over i of  P in h_1 in ... in h_i-1 outside h_i
+//
+// Subtracting blocker after blocker leaves the visible parts, whose form factors (dimensionless) add up.
 // Blockers are to lie between the point and the polygon's plane: cut them there first.
 #pragma once
 

@@ -17,7 +17,7 @@ struct ExtendedSettings {
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
   /// Lines of shadow that are drawn to cut the senders by (discontinuity_lines.h), some tenths of a
   /// second. Where there are as many blockers senders are not cut.
-  std::size_t shadow_lines = 10'000'000;
+  std::size_t max_discontinuity_lines = 10'000'000;
   WorldListing listing = WorldListing::worlds;
   /// By group, the brightness of what is there:
   /// the accuracy is wanted of the sum weighted by it as well. Empty: all count alike.

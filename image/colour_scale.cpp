@@ -127,10 +127,10 @@ Image false_colours(const Channel& values, const Channel& known, const ColourSca
                                  : scale_colour(value / scale.top, scale.scale);
     }
   // At most a fifth of the picture, and wide enough for its numbers.
-  constexpr int least_width = 160;
+  constexpr int min_width = 160;
   const int dot = std::max(1, values.width / 512);
   const int height = scale_height(values.width, scale, dot);
-  if (values.width >= least_width && 5 * height <= values.height)
+  if (values.width >= min_width && 5 * height <= values.height)
     draw_scale(picture, values.height - height, scale, dot);
   return picture;
 }

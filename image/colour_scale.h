@@ -30,16 +30,16 @@ glm::vec3 scale_colour(double place, ErrorScale scale);
 /// The value at its low end.
 double scale_start(const ColourScale& scale);
 
-/// What is under scales and beside maps: a dark grey, linear.
+/// The colour under scales and beside maps: a dark grey, linear.
 glm::vec3 scale_background();
 
 /// The pixels from (x0, y0) to before (x1, y1) that are in the picture.
 void fill(Image& picture, int x0, int y0, int x1, int y1, const glm::vec3& colour);
 
-/// How many steps the numbers below the bar are apart.
+/// The number of steps between the numbers below the bar.
 int scale_ticks(ErrorScale scale);
 
-/// Of the strip, pixels; letters have dots of at most so many.
+/// The height of the strip, pixels; letters have dots of at most `largest_dot`.
 int scale_height(int width, const ColourScale& scale, int largest_dot);
 
 /// Draws the strip with `y` as its upper edge, over what is there.

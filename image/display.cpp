@@ -111,7 +111,7 @@ namespace {
 constexpr int bins_per_stop = 16;
 constexpr int black_stops = 20;
 constexpr double key = 0.22;
-constexpr double most_relief = 1.0;
+constexpr double max_relief = 1.0;
 
 /// Luminances of float pixels span the exponents -150 ... 130.
 constexpr int lowest_exponent = -160;
@@ -189,7 +189,7 @@ double automatic_exposure(const Image& picture) {
   const double highlights =
       half_bin + static_cast<double>(percentile_bin(histogram, 0.95) - bright) / bins_per_stop;
   const double keyed = std::log2(key) - middle;
-  const double relief = std::clamp(0.5 * (keyed + highlights), 0.0, most_relief);
+  const double relief = std::clamp(0.5 * (keyed + highlights), 0.0, max_relief);
 
   // Rounded before the position of `bright` comes in, which is whole in the same units.
   const double relative = std::round((keyed - relief) * bins_per_stop);

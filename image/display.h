@@ -22,13 +22,13 @@ double automatic_exposure(const Image& picture);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// What a pixel shows, linear in [0, 1], where that is not what the transform makes of its mean.
+/// The shown value of a pixel, linear in [0, 1], where it is not the transform of its mean.
 struct ShownPixel {
   std::size_t pixel; ///< row by row
   glm::vec3 shown;
 };
 
-/// What pixels show at one exposure, by one transform.
+/// The shown values of pixels at one exposure, by one transform.
 struct ShownPixels {
   double exposure = 0.0; ///< stops
   ViewTransform transform = ViewTransform::srgb;

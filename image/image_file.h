@@ -28,14 +28,14 @@ namespace meninas {
 /// Worth calling once it is clear that a picture will be read; never needed.
 void preload_picture_reader();
 
-/// What an output name asks for, by its extension (in any case). Throws OutputError for any other.
+/// The format of an output name, by its extension (in any case). Throws OutputError for any other.
 enum class PictureFormat { exr, png, hdr };
 PictureFormat picture_format(const std::filesystem::path& file);
 
 /// Linear EXR of one part:
 /// R, G, B of the picture, then NAME.R, NAME.G, NAME.B of each layer, compressed without loss.
-/// Layers `depth` and `normal` have the channels that compositors expect: depth.Z; normal.X, .Y, .Z. `alpha` is A beside R, G, B.
-/// Layers have the picture's size and names of their own. No value may be NaN; values beyond
+/// Layers `depth` and `normal` have the channels that compositors expect: depth.Z; normal.X, .Y, .Z. `alpha` is A
+/// beside R, G, B. Layers have the picture's size and names of their own. No value may be NaN; values beyond
 /// the largest of the type (65504 for half), infinities too, become that largest value.
 void write_exr(const std::filesystem::path& file, const Image& picture,
                std::span<const Layer> layers = {}, PixelType type = PixelType::half,
@@ -50,7 +50,7 @@ void write_exr_window(const std::filesystem::path& file, const Image& pixels,
 /// the brightest channel of theirs. No value may be NaN; negative ones become 0.
 void write_hdr(const std::filesystem::path& file, const Image& picture);
 
-/// How a PNG shows linear light: times 2^exposure, and then as the transform has it.
+/// The display of linear light in a PNG: times 2^exposure, and then by the transform.
 struct DisplaySettings {
   double exposure = 0.0; ///< stops
   ViewTransform transform = ViewTransform::srgb;
@@ -87,8 +87,8 @@ enum class Picture { needed, not_needed };
 
 /// EXR and HDR as they are; PNG, JPEG, WebP and TIFFs of integers decoded from sRGB to linear,
 /// of a TIFF the first page. Grey becomes R = G = B. The kind is recognised by the content.
-/// An EXR's pixels are those of its display window, 0 where no data are. What of its layers and
-/// parts is the picture, picture_channels.h says.
+/// An EXR's pixels are those of its display window, 0 where no data are. The rules of picture_channels.h
+/// choose the picture among its layers and parts.
 /// Refuses more than 65536 pixels on a side and more than 2^30 values in all.
 ImageFile read_image(const std::filesystem::path& file, Picture picture = Picture::needed);
 

@@ -2,8 +2,9 @@
 // libraries that only some runs want cost the others no time at their start.
 //
 // The build tree and an installed tree agree on where modules are, seen from a folder above the program, or the shared
-// library: in LIBDIR/meninas. So nothing but its own place is needed to find them, and both trees can be moved; a library that
-// was copied has them in meninas/ beside it. Else they are where they were configured to be installed, or on the loader's own path.
+// library: in LIBDIR/meninas. So nothing but its own place is needed to find them, and both trees can be moved; a
+// library that was copied has them in meninas/ beside it. Else they are where they were configured to be installed, or
+// on the loader's own path.
 #pragma once
 
 #include <filesystem>

@@ -1,9 +1,9 @@
-// Which channels of a picture file are the picture, which are layers, and which are neither:
-// by their names, because a file says no more.
+// The roles of a picture file's channels (the picture, a layer, or neither), told by their names, because a
+// file says no more.
 //
 // A colour is three channels of one part with the same prefix whose last names are R, G and B,
 // in either case, or Red, Green and Blue: `R`, `ViewLayer.Combined.R`, `albedo.r`.
-// Of several parts, the prefix begins with the part's name. The picture is
+// In files of several parts, the prefix begins with the part's name. The picture is
 //   1. plain R, G and B, those of the first part that has them;
 //   2. what Blender calls Composite.Combined, else the first layer with `Combined` in its name;
 //   3. the first layer that is called as renderers call it: beauty, rgba, rgb, color, ...;

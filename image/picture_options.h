@@ -1,4 +1,4 @@
-// How pictures are stored in files.
+// Options for storing pictures in files.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct DataWindow {
   int picture_width = 0, picture_height = 0;
 };
 
-/// How hard compression tries; the pixels are the same.
+/// The effort of compression; the pixels are the same.
 enum class Compression { small, quick };
 
 } // namespace meninas

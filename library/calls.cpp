@@ -184,7 +184,7 @@ Call call_of(const Room::Impl& room, const Settings& settings, CallKind kind) {
   if (kind != CallKind::room)
     check_reading(room.loaded, chosen);
   if (goal && chosen.mode == PictureMode::reference)
-    throw UsageError(goal->error ? "error" : "time", "is of the two passes: a reference has max-error and max-seconds");
+    throw UsageError(goal->error ? "error" : "time", "has no effect with mode reference: use max-error or max-seconds");
   if (goal && chosen.lamp_layers)
     throw UsageError("layers", "lamps does not go with error or time, which choose for themselves");
   call.request.goal = goal;

@@ -54,7 +54,7 @@ RoomFactors Room::form_factors(const Settings& settings, const Listener& listene
     RunFigures figures;
     check_memory(impl_->scene, chosen, std::nullopt);
     const auto prepared = prepare_run(scene_under_lamps(*impl_, chosen), of_pass_one, events, figures);
-    const LightScene& light = *prepared->light;
+    const LightScene& light = *prepared->light();
     const ElementMesh& mesh = light.mesh;
     auto impl = std::make_shared<RoomFactors::Impl>();
     impl->room = impl_;

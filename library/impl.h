@@ -1,4 +1,4 @@
-// What the handles of meninas.h stand for, and how calls go in and out of the library: settings by
+// The objects behind the handles of meninas.h, and the conversions at the library's border: settings by
 // the parser of the command line, events to a listener, and exceptions as Error.
 #pragma once
 
@@ -56,7 +56,7 @@ struct Call {
   std::optional<LampGrouping> by_lamp; ///< of a solution
 };
 
-/// What a call is of. Its own settings that have no effect there are refused; those of its room are left aside.
+/// The kind of a call. Its own settings that have no effect there are refused; those of its room are ignored.
 enum class CallKind { room, plan, picture, solution, picture_of_solution, form_factors, solve_rows };
 
 /// Throws UsageError; also where a call wants the file read in another way than the room has.
@@ -65,14 +65,14 @@ Call call_of(const Room::Impl& room, const Settings& settings, CallKind kind);
 /// The settings, of which some stand for others with the same name further ahead.
 Settings merged(const Settings& before, const Settings& after);
 
-/// How a file of pixels is written: what is said over what was.
+/// The settings for writing a file of pixels: the new ones over those before.
 PictureSettings picture_settings(PictureSettings before, const Settings& settings);
 
 /// The scene with lamps as bright as the call says, and the files it has been read from.
 Scene scene_under_lamps(const Room::Impl& room, const RunSettings& settings);
 std::vector<std::filesystem::path> files_of(const Room::Impl& room);
 
-/// The listener as runs know it. What it throws, and Cancelled where it says so, ends the work.
+/// The listener as runs know it. Its exceptions, and Cancelled where it asks for that, end the work.
 RunEvents events_of(const Listener& listener);
 struct Cancelled {};
 

@@ -7,16 +7,17 @@
 // red, green and blue, three numbers one after the other.
 //
 // Settings are the options of `meninas render` by their names without dashes, with the values that they have on
-// the command line (docs/options.md): {{"quality", "draft"}, {"size", "640x480"}}. Those of a call go over those of
-// its room; what is not said has the values of a preset. A call refuses what has no effect on it and leaves aside what
-// its room says for others. `threads` limits the threads of the process while the call goes on, `error` and `time` choose
-// the rest of a picture's settings, and `png` makes a picture for PNGs: edges get the rays that the command gives them.
+// the command line (docs/options.md): {{"quality", "draft"}, {"size", "640x480"}}. Settings of a call override those
+// of its room; the others have the values of a preset. A call refuses its own settings that have no effect on it, and
+// ignores such settings of its room. `threads` limits the threads of the process during the call, `error` and `time`
+// choose the rest of a picture's settings, and `png` makes a picture for PNGs: edges get the rays that the command
+// gives them.
 //
-// Objects are handles of what does not change: copies share it, and any thread may use them. Spans live as long as
-// the object that they are of. Results are the same bits for any number of threads, and those of the commands for an EXR,
-// with `png` for a PNG.
+// Objects are handles of immutable data: copies share it, and any thread may use them. Spans live as long as
+// the object that they are of. Results are the same bits for any number of threads, and those of the commands for an
+// EXR, with `png` for a PNG.
 //
-// What a user can cause is thrown as Error, one line as the program says it. This header needs the standard
+// Errors that a user can cause are thrown as Error, one line as the program says it. This header needs the standard
 // library alone.
 #pragma once
 
@@ -59,7 +60,8 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// Nothing of it changes a result; each may be empty.
 struct Listener {
   std::function<void(const std::string&)> warning; ///< what a user has to know
-  /// The stage and how much of it is done, 0 to 1, from any thread. False ends the call: it throws Error::Kind::cancelled.
+  /// The stage and how much of it is done, 0 to 1, from any thread. False ends the call: it throws
+  /// Error::Kind::cancelled.
   std::function<bool(const std::string& stage, double done)> progress;
 };
 
@@ -82,7 +84,8 @@ public:
   /// Figures of the run as JSON (docs/stats.md), with the estimated error of the picture; empty of one that was read.
   std::string stats() const;
 
-  /// .exr and .hdr linear, .png displayed. Settings go over those of the render: exposure, view-transform, depth, float.
+  /// .exr and .hdr linear, .png displayed. Settings go over those of the render: exposure, view-transform, depth,
+  /// float.
   void write(const std::filesystem::path& file, const Settings& settings = {}) const;
 
   struct Impl;
@@ -93,14 +96,14 @@ private:
   std::shared_ptr<const Impl> impl_;
 };
 
-/// How far a picture is from its reference (docs/commands.md, `diff`). PSNR in dB; RMSE, MAE and the maximum in
+/// The error of a picture against its reference (docs/commands.md, `diff`). PSNR in dB; RMSE, MAE and the maximum in
 /// the unit of the pictures; relative MSE, SSIM and FLIP dimensionless, the last two as displayed.
 struct PictureDistance {
   double rmse = 0.0, relmse = 0.0, mae = 0.0, psnr = 0.0, max_abs = 0.0, ssim = 0.0, flip = 0.0;
 };
 MENINAS_API PictureDistance distance(const RoomPicture& picture, const RoomPicture& reference);
 
-/// What arrives at a point on the side of a normal, W/m^2.
+/// The irradiance at a point on the side of a normal, W/m^2.
 struct Arriving {
   Colour total{}, direct{}, by_mirrors{}; ///< `direct`: no diffuse surface has reflected it
   bool inside = false;                    ///< the point is inside of something: no light is there
@@ -122,7 +125,8 @@ public:
   /// Irradiance anywhere in the room, by eight times the rays of a vertex. Points are within 1e6 m.
   std::vector<Arriving> irradiance_at(std::span<const MeasuringPoint> points, const Listener& listener = {}) const;
 
-  /// The field, by vertex: three floats each, metres and W/m^2. Between vertices it is bilinear in quads, linear in triangles.
+  /// The field, by vertex: three floats each, metres and W/m^2. Between vertices it is bilinear in quads, linear in
+  /// triangles.
   std::span<const float> vertices() const;
   std::span<const float> irradiance() const;
   /// By element four vertices; a triangle repeats its third.
@@ -141,8 +145,8 @@ private:
 };
 
 /// T of Eq. 1 between the elements of a uniform mesh, as rows without zeros (CSR), and what the elements are.
-/// A row sums to at most 1, in a closed room without mirrors to 1; light that meets more mirrors than `mirror-depth` allows is lost. Form factors F are those of one channel where no
-/// mirror is coloured.
+/// A row sums to at most 1, in a closed room without mirrors to 1; light that meets more mirrors than `mirror-depth`
+/// allows is lost. Form factors F are those of one channel where no mirror is coloured.
 class MENINAS_API RoomFactors {
 public:
   std::size_t size() const;
@@ -161,8 +165,8 @@ public:
     double residual = 0.0, error_bound = 0.0; ///< relative, in the maximum norm; infinite without a bound
     bool converged = false;
   };
-  /// B = E + rho T B of the elements, by the settings `solver`, `tolerance` and `steps`. E three each, W/m^2; of the scene where it is
-  /// empty. Lights that are no faces have none. `solver` direct tells no progress and is not ended.
+  /// B = E + rho T B of the elements, by the settings `solver`, `tolerance` and `steps`. E three each, W/m^2; of the
+  /// scene where it is empty. Lights that are no faces have none. `solver` direct tells no progress and is not ended.
   Solved solve(std::span<const double> emission = {}, const Settings& settings = {}, const Listener& listener = {}) const;
 
   struct Impl;
@@ -175,15 +179,15 @@ private:
 /// A scene as its file says it.
 class MENINAS_API Room {
 public:
-  /// Settings hold for all calls; which state of the file is shown, its units and what surrounds it can be said here alone.
+  /// Settings hold for all calls. The state of the file, its units and the environment can be set here only.
   explicit Room(const std::filesystem::path& file, const Settings& settings = {}, const Listener& listener = {});
 
   std::vector<std::string> cameras() const;
   std::vector<std::string> nodes() const;
   std::vector<std::string> lamps() const; ///< as the setting `lamp` names them
-  /// What the room contains, what will be modelled and what is odd about it, as JSON (`meninas plan --json`).
+  /// The contents of the room, the modelled transport and the oddities, as JSON (`meninas plan --json`).
   std::string plan(const Settings& settings = {}) const;
-  /// The same room where all faces of these nodes emit so much, E in W/m^2, in place of what the file says of them; 0 is dark.
+  /// The same room where all faces of these nodes emit E, W/m^2, in place of their emission in the file; 0 is dark.
   /// A solution of it belongs to it, not to the file.
   Room emitting(const std::vector<std::pair<std::string, Colour>>& nodes) const;
 
@@ -192,7 +196,8 @@ public:
   /// Pass one for any number of pictures, as `meninas solve`. `by-lamp` (node or material) tells lamps apart.
   RoomSolution solve(const Settings& settings = {}, const Listener& listener = {}) const;
   RoomSolution read_solution(const std::filesystem::path& file, const Listener& listener = {}) const;
-  /// Settings: form-factors, rays, hemicube-resolution, elements, element-size, mirror-depth (0: without mirrors), seed, quality, lamp.
+  /// Settings: form-factors, rays, hemicube-resolution, elements, element-size, mirror-depth (0: without mirrors),
+  /// seed, quality, lamp.
   RoomFactors form_factors(const Settings& settings = {}, const Listener& listener = {}) const;
 
   struct Impl;

@@ -65,7 +65,7 @@ RoomSolution Room::solve(const Settings& settings, const Listener& listener) con
     impl->figures.threads = limit.threads();
     check_memory(impl_->scene, chosen, std::nullopt);
     impl->prepared = prepare_run(impl_->scene, impl->settings, events, impl->figures);
-    impl->solution = solve_pass_one(impl->prepared->light, impl->settings, events.progress);
+    impl->solution = solve_pass_one(impl->prepared->light(), impl->settings, events.progress);
     add_solution(impl->figures, impl->solution);
     impl->figures.seconds.total = total.lap();
     impl->figures.peak_memory_bytes = peak_memory_bytes();

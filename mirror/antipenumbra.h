@@ -1,4 +1,4 @@
-// What can be seen through two windows, one behind the other.
+// The antipenumbra of two windows, one behind the other: the region seen through both.
 //
 // A line that crosses the first window and then the second stays,
 // behind the second, on the second's side of every plane that holds the two apart.

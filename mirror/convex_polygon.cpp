@@ -15,7 +15,7 @@ namespace {
 using Distances = std::array<double, ConvexPolygon::capacity>;
 enum class Kept { nothing, all, part };
 
-/// What a clip keeps. Most keep all or nothing; only a polygon that straddles the plane is rebuilt.
+/// The part that a clip keeps. Most keep all or nothing; only a polygon that straddles the plane is rebuilt.
 Kept measure(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal,
              Distances& distance) {
   if (polygon.empty())

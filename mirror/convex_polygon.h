@@ -53,7 +53,7 @@ bool is_point(const ConvexPolygon& polygon, const Point3& apex);
 /// Where the polygon appears, with its corners in the same order.
 ConvexPolygon apply(const Isometry& map, const ConvexPolygon& polygon);
 
-/// Half the sum of the cross products of the edges: its length is the area.
+/// A = 1/2 sum of x_i x x_i+1 over the edges, m^2: its length is the area.
 Vec3 area_vector(std::span<const Point3> polygon);
 
 } // namespace meninas

@@ -92,7 +92,7 @@ struct Builder {
     split(first + half, count - half);
   }
 
-  /// Of few emitters their own flux, of more the sums by cells.
+  /// Adds the flux of each emitter if they are few, else the sums by cells.
   void add_flux() {
     constexpr std::uint32_t few = 32;
     tree.sent.push_back(0.0);

@@ -8,8 +8,8 @@
 //
 //   I(omega) = 1 / pi sum_i P_i max(0, n_i . omega),     W/sr, of the brightest channel
 //
-// as a cluster has in hierarchical radiosity (Smits, Arvo, Greenberg 1994). Of many emitters
-// those whose normals fall into one cell of a cube of 6 x 8 x 8 are summed beforehand:
+// as a cluster has in hierarchical radiosity (Smits, Arvo, Greenberg 1994). If emitters are many, those
+// whose normals fall into one cell of a cube of 6 x 8 x 8 are summed beforehand:
 // they face omega together or not at all, but for cells that see it edge-on, where all cosines are small.
 #pragma once
 

@@ -37,7 +37,7 @@ struct Chooser {
   static bool is_darker(const CutNode& a, const CutNode& b) { return a.estimate < b.estimate; }
 
   /// Opens the brightest node of `work.open` again and again, until there are `2 most` or only emitters
-  /// are left, and nodes seen from afar. What brings far less than the mean of these stays closed.
+  /// are left, and nodes seen from afar. Nodes that bring far less than the mean of these stay closed.
   void refine(const LightChoice& choice) {
     constexpr double far_less = 0.25;
     auto& open = work.open;
@@ -116,7 +116,7 @@ struct Chooser {
     work.afar.clear();
   }
 
-  /// What the nodes of the area's cut bring to x, and those of worlds that its first point did not see.
+  /// The estimates at x of the nodes of the area's cut, and of worlds that its first point did not see.
   void cut_of_area(const LightChoice& choice) {
     if (work.area != choice.area)
       find_area_cut(choice);
@@ -242,7 +242,7 @@ struct Chooser {
         brought / (from.throughput * std::max({radiosity.r, radiosity.g, radiosity.b}));
   }
 
-  /// How many images are computed of those that are not seen from afar.
+  /// The number of images to compute among those that are not seen from afar.
   double budget_of(const LightChoice& choice, double all, double rest) const {
     if (work.afar.empty())
       return static_cast<double>(choice.most);

@@ -1,6 +1,7 @@
 // The emitter images worth computing at one point, where there are many.
 //
-// The irradiance that n images bring to x is  H = sum_k h_k. When n exceeds a budget of K, image k takes part with probability q_k and counts 1/q_k times:
+// The irradiance that n images bring to x is  H = sum_k h_k. When n exceeds a budget of K, image k takes part with
+// probability q_k and counts 1/q_k times:
 //
 //   H ~ sum_chosen h_k / q_k,    q_k = min(1, K s_k / S),   s_k an estimate of h_k, S their sum,
 //
@@ -19,10 +20,8 @@
 // (lightcuts: Walter et al. 2005). For shadow rays some of its emitters stand for it,
 // chosen by power times cosine.
 //
-// Who chooses again at the same point, with other steps, has the cut already.
-//
-// The points of one small area share the cut that the first of them finds, refined for all of them:
-// they ask its nodes alone what they bring.
+// A second choice at the same point reuses the cut. Points of one small area share the cut of the first,
+// refined for the whole area; each evaluates only its nodes.
 #pragma once
 
 #include "mirror/light_estimates.h"

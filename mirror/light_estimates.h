@@ -1,4 +1,4 @@
-// How much light a node of the light tree brings to a point, or to the points of a small area.
+// Estimates of the irradiance, W/m^2, from a node of the light tree at a point, or at the points of a small area.
 //
 // Estimates are rough and never nothing where there is something (light_choice.h); of a node that is
 // small for its distance the light from afar is known (emitters.h):
@@ -42,7 +42,7 @@ struct LightEstimates {
   /// Whether it lies above the horizon, behind the last mirror and within one opening.
   bool is_wholly_seen(const LampView& from, std::uint32_t node) const;
 
-  /// What a small node brings, W/m^2 of the brightest channel.
+  /// The irradiance from a small node, W/m^2 of the brightest channel.
   double light_from_afar(const LampView& from, std::uint32_t node) const;
 
 private:

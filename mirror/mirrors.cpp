@@ -18,10 +18,10 @@ namespace {
 
 /// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those
 /// of one material, of coats those of one reflectance by the angle, ideal ones by themselves.
-/// What is curved is a mirror by itself, and none that is enumerated.
+/// A curved surface is a mirror by itself, and none that is enumerated.
 using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool, bool>;
 
-/// What it reflects in the mean.
+/// The mean reflectance of a material, over all angles.
 Rgb reflectance_of(const Material& material) {
   if (has_mirror_coat(material))
     return mean_shares(mirror_coat(material)).reflected;

@@ -1,6 +1,8 @@
 // The planar mirrors of a scene:
 // coplanar ideal-mirror surfaces of one reflectance merged into one mirror each.
 //
+//   R_m x = x - 2 (n.x - d) n,   rho the reflectance (dimensionless), of glass and coats 2 int_0^1 R(c) c dc
+//
 // A mirror's window is the set of convex polygons through which its mirror world is seen.
 // The front of a mirror reflects; a double-sided mirror is two mirrors, back to back.
 // Curved mirrors are many small planes: beyond `max_mirrors` planes only large ones are enumerated,
@@ -9,9 +11,9 @@
 //
 // Glass is a mirror on either side whose reflectance depends on the angle (scenes/materials/glass.h),
 // and so is the coat of a polished floor on its front (scenes/materials/smooth_surfaces.h):
-// what is said of them here is the mean over all angles, by which their worlds are judged.
-// Solids have none, rays alone follow what they reflect. What light meets on its way, whoever
-// follows it asks of the glass or the coat itself. Coats come last, and take no mirror's place.
+// the reflectance here is the mean over all angles, by which their worlds are judged.
+// Solids have none, rays alone follow what they reflect. Code that follows a path takes the exact
+// reflectance from the glass or coat. Coats are enumerated last, so they displace no mirror.
 // Planes of theirs that are small beside the scene, as the edge of a table top is, are facets.
 #pragma once
 

@@ -44,7 +44,7 @@ void punctual_images(const WorldTree& tree, std::span<const PunctualLight> light
     const MirrorWorld& world = tree.worlds[index(at.world)];
     for (std::uint32_t number = 0; number < lights.size(); ++number) {
       const PunctualLight& light = lights[number];
-      // What shines on the observer's image in the real
+      // A light that shines on the observer's image in the real
       // room shines on the observer from the light's image.
       const PunctualSample real =
           punctual_sample(light, inverse(world.image, observer.position), reach);

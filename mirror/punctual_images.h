@@ -1,7 +1,10 @@
 // Punctual lights and their images in the mirror worlds, as seen from one point.
 //
 // The image of a light at y in the world w stands at T_w y and shines
-// as the light does on T_w^-1 x: a reflection keeps lengths and angles.
+// as the light does on T_w^-1 x: a reflection keeps lengths and angles. With E of punctual_light.h,
+//
+//   E_w(x) = max(0, n . (T_w y - x) / |T_w y - x|) E(T_w^-1 x),      W/m^2, tau_w and visibility aside.
+//
 // It is seen from x where the segment to it passes the visible part of the last window
 // (virtual_lights.h), behind that mirror. Directional lights stand at a distance beyond the scene.
 // Images beyond the tree are not found: nothing else finds light without extent.

@@ -3,6 +3,7 @@
 // A mirror world w = (m1 ... mk) is the room seen by way of m1 first and mk last.
 // Its images lie at T_w y with T_w = R_m1 R_m2 ...
 // R_mk, so that the straight segment from x to T_w y unfolds into the path x, m1, ..., mk, y.
+// Points and offsets d in metres, directions of unit length.
 #pragma once
 
 #include "scenes/surfaces/surfaces.h"

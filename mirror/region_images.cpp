@@ -10,7 +10,7 @@ namespace {
 
 enum class Seen : std::uint8_t { none, part, whole };
 
-/// Of something that is seen by way of one and then of the other.
+/// The visibility of something that is seen by way of one and then of the other.
 Seen both(Seen a, Seen b) { return std::min(a, b); }
 
 /// By values at all corners: above, below, or neither by more than `margin`.
@@ -63,7 +63,7 @@ struct Classifier {
     return above(least, most, margin);
   }
 
-  /// What is seen of the target through one part of a window that all of the region is in front of.
+  /// The visibility of the target through one part of a window that all of the region is in front of.
   Seen through_part(const ConvexPolygon& part, const ConvexPolygon& target) const {
     const Point3& origin = region.corners[0];
     const double side =

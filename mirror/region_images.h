@@ -1,5 +1,4 @@
-// What all points of a region see alike of the emitters' images,
-// so that it need not be asked again at each.
+// The emitters' images that all points of a region see alike, found once instead of at each point.
 //
 // A segment from x to y passes the edge from a to b of a window on the side that the sign of
 //

@@ -66,7 +66,7 @@ void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std:
   // The image is cut by the horizon, by the last mirror's plane,
   // and by each visible part of the last window.
   ConvexPolygon image = image_of(e.polygon, world);
-  // What glows in the plane of the last mirror sends no light to it:
+  // An emitter in the plane of the last mirror sends no light to it:
   // the back of a sheet would shine forward through its own front.
   const auto is_in_mirror = [&](const Point3& p) {
     return std::abs(signed_distance(world.plane, p)) <= observer.tolerance;

@@ -5,7 +5,12 @@
 // the part of each window that x sees through the part of the window before (polygon
 // clipped to the cone) opens the next world, and an empty part closes the whole branch.
 // An image is then cut by the receiver's horizon, by the last mirror's plane (what pierces
-// a mirror ends there) and by the cone through the visible part of the last window.
+// a mirror ends there) and by the cone through the visible part of the last window:
+//
+//   V_0 = everything,   V_k = W_k in cone(x, V_k-1),   image = T_w e in cone(x, V_k)      (lengths in metres)
+//
+// with W_k the k-th window in unfolded space.
+// Occluders are left out of this: shadow rays find them (radiosity/light/virtual_light_visibility.h).
 #pragma once
 
 #include "mirror/emitters.h"
@@ -29,7 +34,7 @@ struct VirtualLight {
   bool stands_for_others() const { return weight > 1.0 || afar > 0.0; }
 };
 
-/// Who looks: a point on a surface. A point within `tolerance` of an emitter's plane sees
+/// A point on a surface that sees virtual lights. A point within `tolerance` of an emitter's plane sees
 /// nothing of it: there, rounding would decide between nothing and all of the hemisphere.
 struct Observer {
   Point3 position;

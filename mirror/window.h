@@ -1,7 +1,10 @@
 // Windows: few large convex polygons instead of many small tiles.
 //
-// Two convex polygons that share a whole edge become one when their union is convex;
-// repeated until no pair is left.
+// Two convex polygons that share a whole edge become one when their union is convex, which it is if
+//
+//   ((v_k+1 - v_k) x (v_k+2 - v_k+1)) . n > 0   at all of its corners v_k.
+//
+// This is repeated until no pair is left (inessential edges: Hertel, Mehlhorn 1983). Lengths are in metres.
 // A mirror tiled with a thousand pieces is one window, one with a hole a few.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// How much of a sphere lies in a half-space, or in an intersection of some: the least of theirs.
+/// The place of a sphere against a half-space, or against an intersection of several: the least of theirs.
 enum class Where : std::uint8_t { outside, partly, inside };
 
 inline Where where(double distance_inwards, double radius) {

@@ -9,7 +9,7 @@ namespace meninas {
 
 namespace {
 
-/// What of the window lies in front of the plane, by more than the rounding of their coordinates.
+/// The part of the window in front of the plane, by more than the rounding of their coordinates.
 std::vector<ConvexPolygon> in_front(std::span<const ConvexPolygon> window, const Plane& plane) {
   constexpr double rounding = 1e-13;
   std::vector<ConvexPolygon> front;

@@ -1,4 +1,5 @@
-// Mirror worlds: the tree of images of the room under chains of reflections (DESIGN 4).
+// Mirror worlds: the tree of images of the room under chains of reflections
+// (Wallace, Cohen, Greenberg 1987).
 //
 // World 0 is the real room. The world of the chain w = (m1 ...
 // mk) is a child of (m1 ... mk-1): what is seen by way of m1 first.

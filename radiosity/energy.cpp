@@ -31,8 +31,7 @@ Rgb passed_on(const LightScene& light, MaterialId id) {
   return mean.reflected + mean.passed;
 }
 
-/// Of the light that elements receive, what the mirror,
-/// the glass or the coat that they are as well passes on: rays carry it.
+/// The part of the elements' irradiance that their own mirror, glass or coat passes on: rays carry it.
 std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   const ElementMesh& mesh = light.mesh;
   std::vector<Rgb> shares(mesh.area.size());
@@ -49,7 +48,7 @@ std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   return shares;
 }
 
-/// Of that light, what comes out behind translucent surfaces.
+/// The part of that light that comes out behind translucent surfaces.
 std::vector<Rgb> passed_by_elements(const ElementMesh& mesh, const std::vector<float>& exposed) {
   const TranslucentLinks links = translucent_links(mesh, exposed);
   if (links.empty())

@@ -29,8 +29,8 @@ struct EnergyBalance {
       0.0; ///< (emitted - absorbed - escaped - mirror_absorbed) / emitted, worst channel by size
 };
 
-/// What leaves an element follows the fractions of its own rays;
-/// what is absorbed follows what the elements receive.
+/// The light that leaves an element is divided by the fractions of its own rays;
+/// the absorbed light follows from the irradiance of the elements.
 /// Light that enters from outside the surfaces (of punctual lights, of the background: `entering`
 /// by ElementId, or none) counts as emitted where it first arrives.
 EnergyBalance energy_balance(const LightScene& light, const ElementSolution& solution,

@@ -16,7 +16,7 @@ namespace meninas {
 
 namespace {
 
-/// Of at most so many, spread over all there are.
+/// The seconds of one piece of work, measured on at most `some` of `all`, spread over all of them.
 template <typename Do>
 double seconds_of_one_of(std::size_t all, std::size_t some, const Do& work) {
   return seconds_of_one(std::min(all, some), 1, [&](std::size_t first, std::size_t last) {
@@ -57,7 +57,7 @@ PointSeconds point_seconds(const LightScene& light, const PassOneSettings& setti
   return seconds;
 }
 
-/// How many of what there will be.
+/// The expected counts.
 struct Counts {
   double rows = 0.0;     ///< of the transport
   double of_rays = 1.0;  ///< what share of a gathering's rays a row has
@@ -70,7 +70,7 @@ struct Counts {
 Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings, Counts all) {
   constexpr double rows_of_first = 2.0, gathers_of_row = 3.0,
                    by_themselves = 0.05; // of the elements, whose corners do not tell
-  const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
+  const NodeTree tree = make_node_tree(light);
   const std::size_t first = first_receivers(light.mesh, tree).size();
   all.rows = std::min(all.elements, rows_of_first * double(first));
   if (!gathers_by_nodes(settings))

@@ -1,10 +1,10 @@
-// How many bytes pass one is going to have, before any of its work.
+// The expected memory of pass one, bytes, before any of its work.
 //
 //   scene    vertices, triangles, textures; ray structures, mesh and field of about N elements
 //   solve    rows x entries of a row, at most min(rays, N), and what finds them
 //
-// Counts times sizes that were measured (docs/notes/batch.md), meant to be exceeded by nothing that
-// is common, and to be within a factor of about two for what is large.
+// Bytes = counts x measured sizes (docs/notes/batch.md): an upper bound for common scenes, and within a
+// factor of about two for large ones.
 #pragma once
 
 #include "radiosity/pass_one_settings.h"
@@ -13,7 +13,7 @@
 
 namespace meninas {
 
-/// What is counted of a scene.
+/// The counts of a scene that its memory depends on.
 struct SceneSizes {
   std::size_t vertices = 0, attributes = 0, triangles = 0; ///< attributes: Scene::attributes
   std::size_t sides = 0;         ///< of triangles: two of what is double-sided
@@ -27,8 +27,8 @@ SceneSizes sizes_of(const Scene& scene, std::optional<LampGrouping> lamps = std:
 /// A scene with its light, ready for views: geometry, textures, ray structures, mesh and field.
 std::uint64_t scene_memory(const SceneSizes& scene, const PassOneChoice& choice);
 
-/// What solving needs beyond that: the transport, unless the solver keeps none, and what finds it; where
-/// lamps are told apart, what each of them sends.
+/// The memory of solving besides that, bytes: the transport, unless the solver keeps none, and the workspaces that
+/// find it; where lamps are told apart, the light of each.
 std::uint64_t solve_memory(const SceneSizes& scene, const PassOneChoice& choice);
 
 } // namespace meninas

@@ -3,7 +3,7 @@
 //   B_i = E_i + rho_i sum over worlds w of tau_w sum_j F^w_ij B_j       (Eq. 1, on elements)
 //   H(x) = D(x) + sum over worlds w of tau_w sum_j F^w_xj B_j           (at the vertices, interpolated between)
 //
-// Of translucent surfaces, tau times H of their other side comes to B (transport/translucency.h).
+// Translucent surfaces add tau times H of their other side to B (transport/translucency.h).
 // B, E, H in W/m^2. Ideal mirrors are no unknowns: they are in the form factors F^w.
 // The unknowns are those of a cut through the hierarchy of elements: its leaves, or nodes as large as
 // the light allows (MeshCut), which users get by default.
@@ -35,8 +35,8 @@ struct RadiositySolution : ElementSolution {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `progressive` can be watched, and `jacobi` over rows. In scenes of more than `max_direct_unknowns` elements it shoots
-/// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
+/// `progressive` can be watched, and `jacobi` over rows. In scenes of more than `max_direct_unknowns` elements it
+/// shoots rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.
 /// A hierarchical mesh is solved for its nodes (hierarchical/node_solution.h), by rays.
@@ -48,19 +48,20 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
 /// Pass one of such a scene is dark, and needs no form factors.
 bool nothing_emits(const LightScene& light);
 
-/// What of pass one a view shows, by ElementId of the mesh.
+/// The elements that a view shows, by ElementId of the mesh.
 struct SeenElements {
   std::vector<std::uint8_t> elements; ///< 1: the element is seen; empty: every one is
-  /// How much its direct light weighs that is looked up in the field, and not found for each pixel: the largest
-  /// throughput, in [0, 1], of the paths that do. Empty: 1 for every one.
+  /// Weight of the element's direct light where pass two reads it from the field instead of computing it per
+  /// pixel: the largest throughput, in [0, 1], of the paths that read it. Empty: 1 for every one.
   std::vector<float> direct;
 };
 
 /// Pass one for one view: elements that it does not show are less exact, and take less time.
-/// Light is gathered twice (hierarchical/node_field.h). What elements send on is known after the first time,
-/// everywhere and as exactly as ever; the second, with more rays and by smaller nodes, is for what is looked at,
-/// and edges of shadows are for that whose direct light is looked up.
-/// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering or of the solver.
+/// Light is gathered twice (hierarchical/node_field.h). The first gathering covers the whole scene and gives the
+/// light that elements exchange, as exactly as without a view. The second, with more rays and smaller nodes,
+/// covers seen elements only. Shadow edges are refined where pass two reads direct light from the field.
+/// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering or of
+/// the solver.
 /// Importance-driven radiosity: Smits, Arvo and Salesin 1992.
 /// A cut at the leaves is found everywhere, whatever is seen.
 RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,

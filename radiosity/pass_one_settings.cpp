@@ -60,13 +60,19 @@ PassOneQuality pass_one_quality(Quality quality) {
   return {};
 }
 
+double link_error_for(double elements) {
+  const PassOneQuality normal = pass_one_quality(Quality::normal);
+  const double error = normal.link_error * std::sqrt(normal.target_elements / elements);
+  return std::round(1e4 * error) * 1e-4;
+}
+
 static double target_elements(const PassOneChoice& choice, const PassOneQuality& quality) {
-  // What the analytic method takes grows with the square of the elements.
-  constexpr double few_elements = 500.0;
+  // The cost of the analytic method grows with the square of the elements.
+  constexpr double max_elements = 500.0;
   if (choice.elements)
     return *choice.elements;
   return choice.form_factors == FormFactorMethod::analytic
-             ? std::min(quality.target_elements, few_elements)
+             ? std::min(quality.target_elements, max_elements)
              : quality.target_elements;
 }
 
@@ -109,7 +115,7 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice) {
   // and many average out.
   if (settings.interpolation.method == Interpolation::gather) {
     settings.direct.points = 4;
-    settings.direct.most_points = 64;
+    settings.direct.max_points = 64;
   }
   if (choice.mirror_depth) {
     // A cap holds for every kind of path, in closed form and gathered.

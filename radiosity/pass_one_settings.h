@@ -1,5 +1,5 @@
-// What pass one is asked for: the settings of each of its stages in one place, the numbers that a
-// quality stands for, and how what a user chooses becomes settings.
+// The settings of pass one: those of each of its stages in one place, the numbers that a quality stands for,
+// and the conversion of a user's choices to settings.
 #pragma once
 
 #include "radiosity/field/interpolation_settings.h"
@@ -15,7 +15,7 @@
 
 namespace meninas {
 
-/// Which cut through the hierarchy of elements has the unknowns of Eq. 1: its leaves, or nodes as large
+/// The cut through the hierarchy of elements that has the unknowns of Eq. 1: its leaves, or nodes as large
 /// as the light allows (hierarchical/node_solution.h).
 enum class MeshCut { uniform, hierarchical };
 inline constexpr std::array mesh_cuts{MeshCut::uniform, MeshCut::hierarchical};
@@ -56,7 +56,10 @@ struct PassOneQuality {
 };
 PassOneQuality pass_one_quality(Quality quality);
 
-/// What may be chosen of pass one; what is not set follows from the quality.
+/// The presets' link errors, between them and beyond: X = X_normal sqrt(N_normal / N), relative.
+double link_error_for(double elements);
+
+/// A user's choices for pass one; values that are not set follow from the quality.
 struct PassOneChoice {
   Quality quality = Quality::normal;
   std::optional<double> element_size; ///< metres, of all surfaces

@@ -1,5 +1,5 @@
-// What pass one shows while light is still being shot, or gathered sweep by sweep: the field there is so far, for
-// pictures along the way. Irradiance in W/m^2.
+// Intermediate states of pass one, while light is still being shot or gathered sweep by sweep: the field so
+// far, for pictures along the way. Irradiance in W/m^2.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"
@@ -8,8 +8,8 @@
 
 namespace meninas {
 
-/// What shots, or sweeps, have brought so far, as averages over elements at the vertices of the mesh that is
-/// solved (field/interpolation.h), and what the light yet to be shot may add to it.
+/// The light of the shots, or sweeps, so far, as averages over elements at the vertices of the mesh that is
+/// solved (field/interpolation.h), and the ambient term of the light yet to be shot.
 struct PassOneSoFar {
   int shots = 0; ///< of `jacobi` sweeps
   VertexIrradiance field;

@@ -14,9 +14,8 @@ namespace meninas {
 /// for places without light of their own, have left of the difference is shared out in proportion.
 void add_up_by_vertex(VertexIrradiance& field);
 
-/// The field under lamps so much brighter, by their number; not told apart any more. What came by
-/// mirrors is known only where all factors are 1. Precondition: `field` is told apart by its scene's
-/// lamps.
+/// The field under lamps brighter by these factors, by lamp; the result is not told apart any more. Its light by
+/// way of mirrors is known only if all factors are 1. Precondition: `field` is told apart by its scene's lamps.
 IrradianceField relit(const IrradianceField& field, std::span<const Rgb> factors);
 
 } // namespace meninas

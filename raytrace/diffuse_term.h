@@ -1,9 +1,9 @@
 // The diffuse term of pass two at a point: the irradiance that a surface reflects there.
 //
 //   interpolated   H = the field of pass one
-//   direct         H = D(x) + the interpolated field without D: what emitters and their mirror images send is computed at the point itself.
-//                  A picture looks it up in a field that is as fine as its pixels (views/view_light.h),
-//                  so that shadows and mirror spots are as sharp as they are
+//   direct         H = D(x) + the interpolated field without D: light of emitters and of their mirror images is
+//                  computed at the point itself. A picture looks it up in a field as fine as its pixels
+//                  (views/view_light.h), so that shadows and mirror spots are as sharp as they are
 //   gather         H = D(x) + one gathering over the hemisphere, from elements as bright as the field says
 //
 // D(x) owns the same paths in all three (direct_irradiance.h,
@@ -27,13 +27,13 @@ struct DiffuseSettings {
   ViewRefinement refinement; ///< of the field that a picture with `direct` is looked up in
   FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
-  /// Of `gather`: in so many of the places where the rays of a hit land light is gathered once
-  /// more, in place of what elements there reflect; 0: what they reflect is believed.
+  /// With `gather`: the number of places, among those where the rays of a hit land, at which light is gathered
+  /// once more instead of taken from the elements; 0: the radiosity of the elements is used everywhere.
   int places = 0;
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
 };
 
-/// Which values of the field the term builds on;
+/// The values of the field that the term builds on;
 /// `direct` expects a field that knows its indirect part.
 FieldContent field_content(const IrradianceField& field, const DiffuseSettings& settings);
 
@@ -44,11 +44,11 @@ std::vector<Rgb> reflected_by_elements(const IrradianceField& field);
 /// The same, of each lamp too where the field is told apart by lamps.
 SentLight sent_light(const IrradianceField& field);
 
-/// What the term needs besides the field; for `gather` alone.
+/// The light that `gather` gathers from; null for other terms.
 std::unique_ptr<const PointGathering>
 make_gathering(const IrradianceField& field, const DiffuseSettings& settings);
 
-/// What the term is computed from, the same for all points.
+/// The scene and light that the term is computed from, the same for all points.
 struct DiffuseSource {
   const LightScene& light;
   const DiffuseSettings& settings;

@@ -26,11 +26,10 @@ struct SideShading {
 /// By SideId.
 std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh& mesh);
 
-/// Which of the light that arrives at a surface is reflected:
-/// by its last leg, straight or by way of mirrors.
+/// The part of the arriving light that is reflected, by its last leg: straight or by way of mirrors.
 enum class ReflectedPart { all, straight, mirrored, none };
 
-/// What landing points show. Refers to the field it is of.
+/// The radiance that landing points show. Refers to its field.
 struct VisibleLight {
   std::vector<SideShading> shading;  ///< by SideId
   std::vector<glm::vec3> irradiance; ///< by ElementVertexId: of the part, all of it or the indirect
@@ -41,16 +40,16 @@ struct VisibleLight {
   const RadianceMap* sky = nullptr; ///< the same by direction
 };
 
-/// How much of the light a field's values are.
+/// The part of the light in a field's values.
 enum class FieldContent {
   all,
-  indirect ///< without what is computed from the source
+  indirect ///< without direct light
 };
 
 VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content);
 
-/// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last
+/// A part of the light that a field shows. The parts add up to it: `emission`, and reflected light by its last
 /// leg to the surface, straight (`diffuse.direct`) or by way of mirrors (`diffuse.mirrored`).
 struct LightPart {
   std::string name;

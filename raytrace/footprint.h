@@ -5,10 +5,9 @@
 // at depth one, a ray of direction d (to that plane, so that its parameter t is depth,
 // unfolded where mirrors are between) and n samples, the beam is at t as wide as a square of
 //   s = t sqrt(A / (n abs(d))).
-// Where samples come in rounds (sample_choice.h) n are those of a pixel so far,
-// the round's among them: what blurs its texture, also into shadows that end within it,
-// falls like the noise of its edges, as n^(-3/4). With the first round's n it would stay,
-// however many samples there are, and be in every draw of them alike.
+// With rounds of samples (sample_choice.h), n counts all samples of the pixel so far, this round included,
+// so texture blur falls with edge noise as n^(-3/4). With the first round's n the blur would never shrink,
+// and would be the same in every draw.
 // Plane mirrors change neither t nor d's length, so that this holds behind any chain.
 // On a surface met at cosine c the square becomes s by s / c, the longer side along the ray.
 // With an orthographic camera s does not grow with t.

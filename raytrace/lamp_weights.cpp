@@ -26,7 +26,7 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
                     const HitPacket& hits, std::uint32_t k) {
   const LightScene& light = context.light;
   if (!state.specular || state.specular[k].density == 0.0F ||
-      state.specular[k].world == none<WorldId> || light.from_source[face.side] == 0)
+      state.specular[k].world == none<WorldId> || light.direct_sides[face.side] == 0)
     return 1.0F;
   const SpecularRay& ray = state.specular[k];
   const MeshSide& side = light.mesh.sides[face.side];
@@ -42,7 +42,7 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
 
 void show_area_lights(const RenderContext& context, const LaneState& state, std::uint32_t count,
                       const HitPacket& hits, TileWorkspace& work) {
-  // What they send is emission, as lamps' is: reflected light has no part in it (light_parts).
+  // Their light is emission, as lamps' is: reflected light has no part in it (light_parts).
   const ReflectedPart part = context.visible.part;
   if (part != ReflectedPart::all && part != ReflectedPart::none)
     return;

@@ -96,8 +96,8 @@ SideShading shading_at(const LandedLane& lane) {
   return shading;
 }
 
-/// What the map changes of the direct light, D(n') - D(n): the field is that of the unmapped
-/// surface, and light from all around hardly tells.
+/// The change of direct light by the normal map, D(n') - D(n): the field is that of the unmapped
+/// surface, and light from all around hardly changes.
 static glm::vec3 change_by_map(const RenderContext& context, const LaneState& state,
                                const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                                TileWorkspace& work) {
@@ -143,7 +143,7 @@ glm::vec3 irradiance_behind(const LandedLane& lane, TileWorkspace& work) {
              : irradiance_of_lane(context, state, behind, turned, k, work);
 }
 
-/// What a translucent surface shows of light from behind.
+/// The radiance of a translucent surface by light from behind.
 static glm::vec3 passed_radiance(const LandedLane& lane, const SideShading& shading,
                                  TileWorkspace& work) {
   return shading.passed_over_pi == glm::vec3(0.0F)

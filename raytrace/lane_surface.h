@@ -19,8 +19,8 @@ Direction normal_towards(const LandedLane& lane, const Direction& out);
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k);
 
-/// What the surface is like where the lane has landed on it:
-/// of a textured one the point itself, in the part that is shown.
+/// The shading of the surface where the lane has landed: of the very point if it is textured, in the part of the
+/// light that is shown.
 SideShading shading_at(const LandedLane& lane);
 
 /// H where lane k has landed on a side.

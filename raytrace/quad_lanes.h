@@ -14,7 +14,7 @@ namespace meninas {
 /// (u, v) of lane k, which has hit the face.
 inline glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                        std::uint32_t k) {
-  return landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  return hit_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
 }
 
 using LaneFloats = std::array<float, packet_size>;
@@ -43,11 +43,11 @@ inline constexpr std::uint32_t all_lanes = (1U << packet_size) - 1U;
 /// Bit k is set where values[k] is `value`.
 std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value);
 
-/// Which face of LandingTable the lanes have met; all that have met nothing have the same number.
+/// The face of ElementLookup that each lane has met; all lanes that have met nothing have the same number.
 LaneIndices faces_of(const HitPacket& hits);
 
-/// The sum of the radiances at the points of some lanes, with one look-up for each element:
-/// the bilinear field is linear in the sums of 1, s, t and s t.
+/// The sum of the radiances at the points of some lanes, W/m^2/sr, with one look-up for each element: the field is
+/// bilinear, so L = a n + b sum s + c sum t + d sum s t.
 glm::vec3 quad_radiance(const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes);
 

@@ -40,7 +40,7 @@ struct EdgesShown {
   Progress progress; ///< told that the picture is done but for them
 };
 
-/// What a display shows at the edges of bright things, at an exposure.
+/// The pixels that a display shows at the edges of bright things, at an exposure.
 static ShownPixels edges_at(double exposure, const EdgesShown& shown, Rendering& result) {
   const auto& [field, camera, settings, progress] = shown;
   ShownPixels edges{exposure, settings.display->transform, {}};
@@ -69,7 +69,7 @@ static ShownPixels edges_at(double exposure, const EdgesShown& shown, Rendering&
 static double expected_exposure(const IrradianceField& field, const Camera& camera,
                                 const RenderSettings& settings, Rendering& totals) {
   constexpr double enough_pixels = 1 << 14;
-  constexpr int few_samples = 4;
+  constexpr int max_samples = 4;
   const auto step = static_cast<std::size_t>(
       std::max(1.0, std::sqrt(double(settings.width) * settings.height / enough_pixels)));
   const auto width = static_cast<std::size_t>(settings.width);
@@ -81,14 +81,14 @@ static double expected_exposure(const IrradianceField& field, const Camera& came
   const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
   const auto gathering = make_gathering(field, settings.diffuse);
   add(totals, trace_picture({*field.scene, all, gathering.get(), camera, settings},
-                            {{0, std::min(settings.samples, few_samples)}, &some}, {},
+                            {{0, std::min(settings.samples, max_samples)}, &some}, {},
                             [&](int x, int y, const SeenRadiance& seen) {
                               image.at(x, y) = seen[0] + seen[1] + seen[2];
                             }));
   return automatic_exposure(image); // black pixels do not count
 }
 
-/// Of the whole picture; of a window for exposures around that which the whole may have.
+/// Shows the edges of the whole picture; of a window for exposures around that which the whole may have.
 static void show_edges(const EdgesShown& shown, Rendering& result) {
   const auto& [field, camera, settings, progress] = shown;
   const std::optional<double> given = settings.display->exposure;

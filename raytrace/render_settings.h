@@ -1,5 +1,5 @@
-// What is rendered and how exactly, and what comes of it (render.h): radiance L = L_e + rho H / pi at
-// what each pixel sees, W/m^2/sr, as the mean over its samples.
+// Settings and result of a rendering (render.h): radiance L = L_e + rho H / pi at the surface each pixel sees,
+// W/m^2/sr, as the mean over its samples.
 #pragma once
 
 #include "image/display.h"
@@ -19,14 +19,14 @@ enum class RenderMode {
   hybrid     ///< mirrors followed
 };
 
-/// What layers beside those of light show (features.h).
+/// The content of layers other than light (features.h).
 enum class Feature { depth, normal, albedo, element, irradiance, alpha };
 inline constexpr std::array all_features{Feature::depth, Feature::normal, Feature::albedo,
                                          Feature::element, Feature::irradiance, Feature::alpha};
 /// "depth"
 std::string_view name_of(Feature feature);
 
-/// How a display will show the picture.
+/// The display for which the picture is made.
 struct DisplayChoice {
   std::optional<double> exposure; ///< stops; the automatic one otherwise
   ViewTransform transform = ViewTransform::srgb;
@@ -46,7 +46,7 @@ struct RenderSettings {
   double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
   int max_bounces = 1000;
   int glossy_samples =
-      16; ///< directions of a camera ray into the widest and brightest lobes (lobe_grid.h)
+      16; ///< directions of a camera ray into the widest and brightest lobes (glossy_frustum.h)
   std::uint32_t seed = 0;
   PixelFilter filter = PixelFilter::box;
   /// Above 0: no more samples than it takes for pixels to be right

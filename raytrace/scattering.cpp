@@ -43,8 +43,8 @@ Media media_at(const RenderContext& context, const HitPacket& hits, std::uint32_
   return hits.front[k] != 0 ? Media{before, met} : Media{met, none<MaterialId>};
 }
 
-/// How a surface scatters towards where a path came from: by which lobes, into so many squared
-/// directions, and between which solids.
+/// The scattering of a surface towards the origin of a path: its lobes, the root of the number of directions, and
+/// the solids on either side.
 struct Scatterer {
   const Bsdf& bsdf;
   Direction normal; ///< towards the side that was met; it turns with a curved surface
@@ -85,7 +85,7 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
   const RenderSettings& settings = context.settings;
   const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
   if (ray.lobes == 0)
-    lobe_grid(bsdf, out, n, shift_of(ray, seed), work.lobe);
+    glossy_frustum(bsdf, out, n, shift_of(ray, seed), work.lobe);
   else
     lobe_sample(bsdf, out, shift_of(ray, seed), work.lobe);
   const glm::vec3 throughput = ray.throughput;
@@ -102,7 +102,7 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
     const bool through = work.lobe[cell].through;
     if (!through && settings.mode == RenderMode::radiosity)
       continue;
-    // What is not bent keeps its bits.
+    // Light that is not bent keeps its bits.
     const bool bent = bsdf.pane.faces == GlassFaces::one;
     const bool straight = through && bsdf.alpha == 0.0 && !bent;
     ray.medium = through ? media.behind : media.before;
@@ -164,7 +164,7 @@ void add_highlights(const RenderContext& context, const Scatterer& scatterer,
   for (const PunctualArrival& arrival : work.highlights) {
     // The irradiance has the cosine to the receiver's normal already.
     const Direction in = to_local(normal, arrival.towards);
-    // What mirrors with a width of their own show, the lobe's rays find by their lobes.
+    // The lobe's rays find the light of mirrors with a width of their own by the lobes of these.
     if (in.z > 0.0 && context.blurred[index(arrival.world)] == 0)
       seen_by_lobe(context, ray, arrival.world, work) +=
           ray.throughput * glm::vec3(reflection_lobe(bsdf, out, in) * arrival.irradiance);

@@ -1,11 +1,11 @@
-// What glossy metals, coated surfaces and panes show:
+// The radiance of glossy metals, coated surfaces and panes, W/m^2/sr:
 //
 //   L(o) = L_e + rho(o) H / pi + sum_k w_k L(i_k) + sum_p f(o, i_p) E_p + sum_e f(o, i_e) cos_e L_e
 //
 // and of translucent surfaces tau(o) H_behind / pi (lane_surface.h).
 // rho(o) is what the lobes without a direction of their own reflect towards o (even_reflectance,
 // scenes/materials/bsdf.h), H the field; the first sum is over the grid of the lobe,
-// each of whose rays is followed as those of a mirror are (lobe_grid.h);
+// each of whose rays is followed as those of a mirror are (glossy_frustum.h);
 // the second over punctual lights and their images in the mirror worlds, which no ray can meet;
 // the third over points of emitters and of their images.
 // Few rays of the lobe meet a small lamp, and few of its points lie in a narrow lobe:

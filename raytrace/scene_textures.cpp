@@ -18,7 +18,7 @@ static TexturePixels decoded(const Texture& texture, TextureContent content) {
   return {image.width, image.height, std::move(image.pixels)};
 }
 
-/// What cannot be decoded changes nothing: white times the factor. A warning says so.
+/// A texture that cannot be decoded changes nothing: white times the factor. A warning says so.
 static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::string>& warnings) {
   return decode_textures(scene, [&](const Texture& texture, TextureContent content) {
     try {

@@ -18,7 +18,7 @@ bool shows_sky(const VisibleLight& visible) {
   return visible.sky != nullptr || visible.background != glm::vec3(0.0F);
 }
 
-/// What lane k shows where it has met nothing. Lobes have the light of suns by themselves.
+/// The radiance of lane k where it has met nothing. Lobes have the light of suns by themselves.
 glm::vec3 sky_seen(const VisibleLight& visible, const RayPacket& packet, const LaneState& state,
                    std::uint32_t k) {
   if (visible.sky == nullptr)
@@ -36,7 +36,7 @@ void reflect_lane(const LandedLane& lane, TileWorkspace& work) {
     reflect(lane, work);
 }
 
-/// What a lane shows of a face where it shares its light with no other.
+/// The radiance of a face in a lane that shares its light with no other.
 glm::vec3 radiance_by_itself(const LandedLane& lane, TileWorkspace& work) {
   if (meets_lobes(lane.context, lane.face, lane.hits, lane.k))
     return scattered_radiance(lane, work);
@@ -85,12 +85,12 @@ bool lands_together(const RenderContext& context, const LaneState& state, const 
     return false;
   const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
   const SideShading& side = context.visible.shading[face.side];
-  // What rays of lobes show of lamps is weighed ray by ray.
+  // The light of lamps on rays of lobes is weighed ray by ray.
   const bool weighed = state.specular && !context.bsdfs.empty() && side.emitted != glm::vec3(0.0F);
   return !side.is_by_point() && !weighed && !meets_lobes(context, face, hits, k);
 }
 
-/// Those of the lanes that belong to the pixel of the first.
+/// The lanes that belong to the pixel of the first.
 std::uint32_t lanes_of_first_pixel(const LaneState& state, std::uint32_t lanes) {
   const std::uint32_t pixel = state.pixel[std::countr_zero(lanes)];
   // Camera rays come in the order of their pixels.

@@ -1,5 +1,5 @@
-// What rays show of what they have met:
-// the field's radiance, added to their pixels; mirrors queue the rays that go on.
+// Shading of the surfaces that rays have met: the field's radiance, W/m^2/sr, is added to their pixels, and
+// mirrors queue the rays that go on.
 #pragma once
 
 #include "raytrace/beams/lane_state.h"

@@ -62,7 +62,7 @@ void reflect(const LandedLane& lane, TileWorkspace& work) {
   ray.throughput = face.reflectance * ray.throughput;
   ray.way = one_more_mirror(ray.way);
   ++ray.bounces;
-  // What a map turns aside is in no mirror world.
+  // A ray that a normal map turns aside is in no mirror world.
   ray.world = face.mapped ? none<WorldId> : child(context.light.worlds, ray.world, face.mirror);
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   ray.origin = at.position;

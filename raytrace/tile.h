@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiosity/light/light_samples.h"
-#include "raytrace/lobe_grid.h"
+#include "raytrace/glossy_frustum.h"
 #include "raytrace/beams/coherent_beam.h"
 #include "scenes/sampling.h"
 

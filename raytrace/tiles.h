@@ -23,7 +23,7 @@ struct SampleShare {
   const PictureWindow* window = nullptr; ///< of whole tiles, whose pixels alone are traced; null: all
 };
 
-/// What pixels are traced of.
+/// The scene, field and camera that pixels are traced of.
 struct TracedView {
   const LightScene& light;
   const VisibleLight& visible;

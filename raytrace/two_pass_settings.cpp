@@ -50,9 +50,9 @@ DiffuseTerm diffuse_term(const TwoPassChoice& choice, RenderMode mode) {
 static DiffuseSettings diffuse_settings(const TwoPassChoice& choice, DiffuseTerm term,
                                         const FormFactorSettings& form_factors, int samples) {
   constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
-  constexpr int shared_at_most = 32;
+  constexpr int max_shared = 32;
   if (choice.pixel_error)
-    samples = std::min(samples, shared_at_most);
+    samples = std::min(samples, max_shared);
   const RenderQuality quality = render_quality(choice.quality);
   DiffuseSettings result;
   result.term = term;

@@ -1,5 +1,5 @@
-// What the two passes are asked for: the settings of both, the numbers of pass two that a quality
-// stands for, and how what a user chooses becomes settings (radiosity/pass_one_settings.h).
+// The settings of both passes, the numbers of pass two that a quality stands for, and the conversion of a
+// user's choices to settings (radiosity/pass_one_settings.h).
 #pragma once
 
 #include "radiosity/pass_one_settings.h"
@@ -28,7 +28,7 @@ struct RenderQuality {
 };
 RenderQuality render_quality(Quality quality);
 
-/// What may be chosen of both passes; what is not set follows from the quality.
+/// A user's choices for both passes; values that are not set follow from the quality.
 struct TwoPassChoice : PassOneChoice {
   std::optional<int> samples;            ///< rounded up to a power of two
   std::optional<DiffuseTerm> diffuse;    ///< of a hybrid picture
@@ -44,7 +44,7 @@ struct TwoPassChoice : PassOneChoice {
 /// means of elements by the analytic method do not.
 bool tells_light_apart(const PassOneChoice& choice);
 
-/// What is asked for, or what the quality has;
+/// The diffuse term that the user chose, or that of the quality;
 /// `interpolated` where the mode or the field knows no other.
 DiffuseTerm diffuse_term(const TwoPassChoice& choice, RenderMode mode);
 

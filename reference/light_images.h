@@ -5,13 +5,13 @@
 // -> zL -> y is unfolded at the other end than in mirrored_lights.h: x sees the light R_m1 ...
 // R_mL y straight, through the mirrors' extents one after the other.
 //
-// Which light reaches x is not told by its power: the sun, which shines on the whole scene,
-// may enter by a slit. If one light is chosen by a chance c it brings E / c where it does reach,
-// of variance E^2 (1 / c - 1): no chance that is the same everywhere is good.
-// So every image that can reach x is asked for; what tells the others costs no ray:
-// cones, horizons, a mirror's extent missed by the straight line. Of more than `max_images`
-// images so many are chosen evenly, of more than `max_connections` that remain so many
-// by what they would bring (systematic sampling, Madow 1949): the expectation is that of all.
+// The power of a light does not say whether it reaches x: the sun shines on the whole scene and
+// may enter by a slit. A light chosen with probability c counts E / c where it reaches x, with
+// variance E^2 (1 / c - 1), so no probability that is the same everywhere is good.
+// So every image that can reach x is tested. Tests without rays exclude the others:
+// cones, horizons, a mirror's extent missed by the straight line. If there are more than `max_images`
+// images, that many are chosen evenly; if more than `max_connections` remain, that many are chosen
+// by what they would bring (systematic sampling, Madow 1949), which is unbiased.
 #pragma once
 
 #include "reference/traced_scene.h"

@@ -5,9 +5,9 @@
 //
 // x1 is the first surface that emits or scatters evenly, seen straight,
 // by one reflection (`.mirror`) or by several (`.mirrors`):
-// of ideal mirrors, and of the lobes of glossy metals, coats and glass, however wide (DESIGN 5:
-// what has a direction of its own is a specular path). What x1 emits is `emission`;
-// what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself,
+// of ideal mirrors, and of the lobes of glossy metals, coats and glass, however wide
+// (light in a direction of its own is on a specular path). The emission of x1 is `emission`;
+// its reflected light is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself,
 // when there is nothing between), else `diffuse.direct`. There mirrors are ideal metals,
 // all glass, and the gloss and coats that pass one takes for mirrors (Material::specular_in_pass_one);
 // other gloss and coats are x2, as pass one spreads what they reflect.

@@ -30,7 +30,7 @@ struct LightPoint {
   double density = 0.0; ///< p_l
 };
 
-/// Of an emitting surface or an area light, as the view sees it.
+/// A point of an emitting surface or an area light, as the view sees it.
 LightPoint choose_point(const TracedScene& traced, const Point3& view,
                         const std::array<float, 4>& u);
 

@@ -58,7 +58,7 @@ Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Cha
       continue;
     if (at.black)
       return Rgb(0.0);
-    // What a curved mirror reflects is met by the paths alone.
+    // Only paths meet the light that a curved mirror reflects.
     const bool curved = is_bent(traced.scene, hit->triangle);
     if (!last_leg && !curved && at.plane == chain.planes[reflections]) {
       throughput *= ideal_reflection(at.bsdf, cosine);

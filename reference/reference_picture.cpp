@@ -20,7 +20,7 @@ struct PixelEstimate {
   Rgb deviations{0.0};
 };
 
-/// How many batches there are, and their samples, in units of a whole batch.
+/// The number of batches, and their samples, in units of a whole batch.
 struct BatchCount {
   int number = 0;
   double whole = 0.0;
@@ -103,7 +103,7 @@ double relative_error(const std::vector<PixelEstimate>& pixels, BatchCount batch
   return mean > 0.0 ? std::sqrt(variance / values) / (mean / values) : 0.0;
 }
 
-/// How far the samples are on their way to a limit; the error falls like the root of their number.
+/// The progress of the samples towards a limit; the error falls like the root of their number.
 double progress_of(const ReferenceSettings& settings, int samples, double error, double seconds) {
   double fraction =
       std::max(double(samples) / settings.max_samples, seconds / settings.max_seconds);

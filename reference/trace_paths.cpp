@@ -53,7 +53,7 @@ MaterialId solid_before(const TracedScene& traced, const Path& path) {
   return inside ? met : path.medium;
 }
 
-/// Of light that a path has met and that is looked for with the density p_l as well.
+/// The weight of light that a path has met and that is chosen with the density p_l as well.
 double weight_of_meeting(const Path& path, LightSearch search, double p_l) {
   if (path.density == 0.0 || search == LightSearch::meeting)
     return 1.0;
@@ -140,7 +140,7 @@ void go_straight_on(Path& path) {
   path.ray.leaving = path.at.plane;
 }
 
-/// What is unlit shows its colour, and where it is open what is behind.
+/// An unlit surface shows its colour, and in its openings the scene behind.
 bool ends_unlit(const TracedScene& traced, Path& path) {
   const Material& material = material_of(traced.scene, path.at.triangle);
   if (!material.unlit || !path.by_mirrors)
@@ -159,7 +159,7 @@ LightRoutes routes_on(const TracedScene& traced, const Path& path, const Directi
   if (in.z < 0.0)
     return path.at.bsdf.passed == Rgb(0.0) ? path.routes : path.routes.scattered({});
   LobeShares shares = lobe_shares(path.at.bsdf, out, in);
-  // What pass one takes for a mirror is one on the way of light, as glass is.
+  // A surface that pass one takes for a mirror is one on the way of light, as glass is.
   if (material_of(traced.scene, path.at.triangle).specular_in_pass_one)
     shares.glass += std::exchange(shares.gloss, Rgb(0.0));
   return path.routes.scattered(shares);

@@ -20,8 +20,8 @@
 
 namespace meninas::reference {
 
-/// Which of the two ways to find emitting surfaces is used. All have the same expectation: that
-/// is a test. Punctual lights can only be chosen, those behind long chains of mirrors only be met.
+/// The way to find emitting surfaces. All ways have the same expectation: that is a test.
+/// Punctual lights can only be chosen, lights behind long chains of mirrors only be met.
 enum class LightSearch { both, choosing, meeting };
 
 struct PathCounts {

@@ -1,4 +1,4 @@
-// What the reference traces: geometry, materials and lights of a scene, ready to be asked.
+// The scene of the path tracer: geometry, materials and lights, ready for queries.
 //
 // It shares the scene and its ray queries with the two passes, and nothing else:
 // no mesh, no mirror worlds, no form factors.

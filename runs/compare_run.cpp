@@ -29,7 +29,7 @@ void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPass
                     const RunEvents& events, RunFigures& figures, Comparison& comparison) {
   Stopwatch watch;
   const RadiositySolution solution =
-      solve_pass_one(prepared.light, settings.pass_one, events.progress);
+      solve_pass_one(prepared.light(), settings.pass_one, events.progress);
   warn_of_solution(prepared, solution.solver, solution.closure, events);
   add_solution(figures, solution);
   const double pass_one = watch.lap();

@@ -92,8 +92,7 @@ void put_in_picture(Scene& scene, const EnvironmentChoice& choice) {
     warn(fmt::format("{} x {} pixels, not twice as wide as high: it is stretched over the sphere",
                      file.picture.width, file.picture.height));
   if (file.encoding == Encoding::srgb)
-    warn("colours for a display, whose white is taken for 1 W/m^2/sr: no sun is as bright there as "
-         "it was");
+    warn("a display picture: white is read as 1 W/m^2/sr, so the sun is clipped");
   RadianceMap raw;
   raw.name = *choice.file;
   raw.width = file.picture.width;

@@ -1,5 +1,5 @@
-// What is asked to surround the scene: a background, a picture or an analytic sky; what its file
-// says otherwise.
+// The environment that a user chooses for a scene (a background, a picture or an analytic sky), or else that of
+// its file.
 //
 //   L(d)   W/m^2/sr (scenes/sky/environment.h)
 #pragma once

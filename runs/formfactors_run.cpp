@@ -114,7 +114,7 @@ private:
 
 std::string as_text(const Scene& scene, const FormFactorsRequest& request,
                     const NodeFactors& factors, double seconds) {
-  constexpr std::size_t most_worlds = 24;
+  constexpr std::size_t max_worlds = 24;
   const ExtendedFactor& factor = factors.to.front();
   std::string text = fmt::format("{:<18}{}\n", "scene", scene.file);
   text += fmt::format("{:<18}{}, {:.6g} m^2{}\n", "from", request.from, factors.area,
@@ -124,7 +124,7 @@ std::string as_text(const Scene& scene, const FormFactorsRequest& request,
   text += fmt::format("{:<18}{:.2g}{}\n", "error estimate", factor.total.error,
                       request.factors.method == NodeFactorMethod::rays ? ", standard error" : "");
   text += fmt::format("{:<18}{}, {:.3f} s\n", "method", name_of(request.factors.method), seconds);
-  for (std::size_t k = 0; k < std::min(most_worlds, factor.worlds.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(max_worlds, factor.worlds.size()); ++k) {
     const WorldFactor& world = factor.worlds[k];
     const auto names = mirror_names(scene, factors.mirrors, world.chain);
     const std::string weight =
@@ -133,8 +133,8 @@ std::string as_text(const Scene& scene, const FormFactorsRequest& request,
                         names.empty() ? "direct" : fmt::format("by {}", fmt::join(names, ", ")),
                         weight);
   }
-  if (factor.worlds.size() > most_worlds) {
-    text += fmt::format("{:<18}and {} more\n", "", factor.worlds.size() - most_worlds);
+  if (factor.worlds.size() > max_worlds) {
+    text += fmt::format("{:<18}and {} more\n", "", factor.worlds.size() - max_worlds);
   }
   return text;
 }

@@ -48,7 +48,7 @@ void write_pictures(const std::vector<std::filesystem::path>& files, const Writt
 std::vector<std::byte> picture_bytes(PictureFormat format, const WrittenPicture& picture,
                                      const PictureSettings& settings, const Attributes& attributes);
 
-/// How PNGs among these files show the picture, if there are any.
+/// The display for which PNGs among these files are made, if there are any.
 std::optional<DisplayChoice> display_of(const std::vector<std::filesystem::path>& files,
                                         const PictureSettings& settings);
 

@@ -59,9 +59,9 @@ std::vector<std::string> describe_worlds(const TransportPlan& plan) {
   leave_out(worlds.pruned_unseen, "that no surface sees");
   leave_out(worlds.pruned_throughput, "too faint to matter");
   leave_out(worlds.pruned_limit, "with more mirrors in a row than are followed");
-  if (plan.world_tail > 0.0) {
+  if (plan.mirror_depth_bound > 0.0) {
     lines.push_back(fmt::format("longer rows of mirrors bring at most {} of the light; rays follow them",
-                                readable_percent(plan.world_tail)));
+                                readable_percent(plan.mirror_depth_bound)));
   }
   return lines;
 }
@@ -115,7 +115,7 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
     text += fact("area lights", std::to_string(plan.area_lights));
   if (!lamps.empty())
     text += fact("lamps", lamps);
-  if (const std::size_t openings = prepared.light->portals.size(); openings > 0)
+  if (const std::size_t openings = prepared.light()->portals.size(); openings > 0)
     text += fact("openings", fmt::format("{} to the sky", openings));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
                                         plan.transmissive, plan.textured));

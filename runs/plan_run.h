@@ -20,7 +20,7 @@ struct PlanRequest {
 
 std::string plan_run(const PlanRequest& request);
 
-/// Of a scene that was read already, which took so many seconds; `request.scene` is not.
+/// The plan of a scene that was read already, in `loading` seconds; `request.scene` is not used.
 std::string plan_of(Scene scene, double loading, const PlanRequest& request);
 
 } // namespace meninas

@@ -65,7 +65,7 @@ static void check_lamps(const PassOneSettings& settings) {
     throw UsageError("--interpolation average", "does not tell lamps apart: they need gather");
 }
 
-std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
+std::shared_ptr<const PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures) {
   check_lamps(settings);
   auto prepared = prepare_scene(std::move(scene), settings);
@@ -79,7 +79,7 @@ std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& s
 /// Names of the nodes that these elements are of.
 static std::vector<std::string> nodes_of(const PreparedScene& prepared,
                                          std::span<const std::uint32_t> elements) {
-  const LightScene& light = *prepared.light;
+  const LightScene& light = *prepared.light();
   std::vector<std::string> names;
   for (const std::uint32_t e : elements) {
     const MeshSide& side = light.mesh.sides[index(light.mesh.side_of_element[e])];

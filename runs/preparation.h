@@ -29,7 +29,7 @@ Scene load_relit_scene(const std::filesystem::path& file, const RunSettings& set
 std::vector<std::filesystem::path> files_beside_scene(const RunSettings& settings);
 
 /// Says the plan's warnings and fills in the figures of these stages.
-std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
+std::shared_ptr<const PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures);
 
 /// Says what a user has to know about how well pass one went in a scene.
@@ -39,7 +39,7 @@ void warn_of_solution(const PreparedScene& prepared, const SolverResult& solver,
 /// The camera with the projection that the settings ask for.
 Camera projected(Camera camera, const RunSettings& settings);
 
-/// Of a scene without a camera: all of it from outside, or around from its middle.
+/// The view of a scene without a camera: all of it from outside, or around from its middle.
 Camera default_view(const Bounds& bounds, const RunSettings& settings);
 
 /// A place to look from that the file need not know.
@@ -48,7 +48,8 @@ struct FreeCamera {
   std::optional<double> angle; ///< of view, vertical, degrees; that of Camera otherwise
 };
 
-/// Upright at its eye, as projected(). Throws UsageError of coordinates beyond 1e6 m, points 1e-9 m apart, and angles outside 0.01 to 179.9.
+/// Upright at its eye, as projected(). Throws UsageError of coordinates beyond 1e6 m, points 1e-9 m apart, and angles
+/// outside 0.01 to 179.9.
 Camera camera_at(const FreeCamera& place, const RunSettings& settings);
 
 /// The camera of that name, else the file's first, else a default view, as projected().

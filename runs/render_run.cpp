@@ -148,7 +148,7 @@ static ViewPicture render_two_pass(const RenderRequest& request, Scene scene, co
     return picture_of_solution(request, lit, camera, size, events, figures);
   }
   const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
-  const RunSettings known = settled(request.settings, *prepared->light);
+  const RunSettings known = settled(request.settings, *prepared->light());
   settings.render = render_settings(known, size);
   Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
   warn_of_solution(*prepared, figures.solver, figures.closure, events);

@@ -1,4 +1,4 @@
-// What a run tells while it runs. Nothing of it changes the result; every function may be empty.
+// The events of a run. They never change the result; every function may be empty.
 #pragma once
 
 #include "radiosity/transport/form_factors.h"

@@ -50,7 +50,7 @@ RenderSettings render_settings(const RunSettings& settings, PictureSize size) {
   render.width = size.width;
   render.height = size.height;
   if (settings.part) {
-    const int most = most_parts(size.width, size.height);
+    const int most = max_parts(size.width, size.height);
     if (settings.part->count > most)
       throw UsageError("--tile", fmt::format("a picture of {}x{} pixels has no more than {} parts",
                                              size.width, size.height, most));

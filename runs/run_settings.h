@@ -1,4 +1,4 @@
-// What a user chooses about a run: a quality, and explicit values that override its numbers.
+// A user's choices for a run: a quality, and explicit values that override its numbers.
 #pragma once
 
 #include "raytrace/two_pass.h"
@@ -30,7 +30,7 @@ struct PicturePart {
   int number = 0, count = 1;
 };
 
-/// How a picture is made.
+/// The method by which a picture is made.
 enum class PictureMode {
   radiosity, ///< pass one alone: mirrors are black
   hybrid,    ///< both passes
@@ -72,7 +72,7 @@ RenderSettings render_settings(const RunSettings& settings, PictureSize size);
 /// The limits that are given, or else the preset's error. Samples are rounded up to whole batches.
 reference::ReferenceSettings reference_settings(const RunSettings& settings);
 
-/// What was rounded, a sentence each.
+/// The numbers that were rounded, a sentence each.
 std::vector<std::string> rounding_notes(const RunSettings& settings);
 
 } // namespace meninas

@@ -49,7 +49,7 @@ public:
 
 private:
   Rendering picture(const VertexIrradiance& values) const {
-    return render({values, prepared_.light}, camera_, render_);
+    return render({values, prepared_.light()}, camera_, render_);
   }
   void write(const std::string& name, const Rendering& shown, int shots) const {
     std::vector<fs::path> files;

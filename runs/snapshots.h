@@ -24,7 +24,7 @@ struct SnapshotRequest {
 /// Makes the folder; throws OutputError when nothing can be written there.
 void prepare_snapshots(const SnapshotRequest& request);
 
-/// What writes them; refers to all but the settings. `like`: files whose formats they have.
+/// The watch that writes snapshots; refers to all but the settings. `like`: files whose formats they have.
 PassOneWatch snapshot_watch(const SnapshotRequest& request, const PreparedScene& prepared,
                             const Camera& camera, const RenderSettings& render,
                             const std::vector<std::filesystem::path>& like,

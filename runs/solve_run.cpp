@@ -169,11 +169,11 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
   if (request.shard) {
-    write_rows(request, *prepared->light, settings.form_factors, events);
+    write_rows(request, *prepared->light(), settings.form_factors, events);
     return figures;
   }
   auto sets = point_sets(std::move(points), request.points, prepared->scene, prepared->surfaces);
-  const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
+  const RadiositySolution solution = solve_or_relight(request, prepared->light(), settings, events);
   add_solution(figures, solution);
   warn_of_solution(*prepared, figures.solver, figures.closure, events);
 

@@ -42,7 +42,7 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
   const std::uint64_t scene_hash = kept ? content_hash(scene) : 0;
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
-  RadiositySolution solution = solve_pass_one(lit.prepared->light, settings, events.progress);
+  RadiositySolution solution = solve_pass_one(lit.prepared->light(), settings, events.progress);
   add_solution(figures, solution);
   warn_of_solution(*lit.prepared, figures.solver, figures.closure, events);
   if (kept) {
@@ -70,13 +70,13 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
   // Lamps are found once textures and the sky are decoded.
-  if (apart && stored.lamps != lit.prepared->light->lamp_groups->names)
+  if (apart && stored.lamps != lit.prepared->light()->lamp_groups->names)
     throw InputError(file.string(), "", "has other lamps than its scene: solve again");
   figures.solver = std::move(stored.solver);
   figures.links = stored.links;
   figures.energy = stored.energy;
   figures.closure = stored.closure;
-  lit.field = field_of(file, std::move(stored), lit.prepared->light);
+  lit.field = field_of(file, std::move(stored), lit.prepared->light());
   figures.elements = element_count(lit.field.mesh());
   figures.vertices = lit.field.mesh().vertices.size();
   warn_of_solution(*lit.prepared, figures.solver, figures.closure, events);
@@ -166,7 +166,7 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
     return painted_luminance(lit, camera, used, settings, events);
   const bool closure = settings.view == DebugView::closure;
   // Rows belong to the elements that were solved, not to those of a refined field.
-  const IrradianceField on_elements{{}, lit.prepared->light};
+  const IrradianceField on_elements{{}, lit.prepared->light()};
   const IrradianceField& field = closure ? on_elements : lit.field;
   std::vector<RowClosure> rows;
   if (closure) {

@@ -54,7 +54,7 @@ struct ViewPicture {
   std::shared_ptr<const IrradianceField> finer = nullptr; ///< Rendering::finer
 };
 
-/// What the two passes have rendered, with the attributes of this view.
+/// The picture that the two passes have rendered, with the attributes of this view.
 ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
                        Rendering rendering);
 

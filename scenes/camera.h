@@ -10,8 +10,8 @@
 //                    of 90 degrees by 90; the lower edge of up and the upper one of down meet forward
 //
 // With a lens (thin, Cook, Porter and Carpenter 1984) the ray starts at a point l of its disc and
-// goes to where that from its centre meets the plane of focus, at the distance d along forward. What
-// lies at z spreads over a circle of the diameter 2 R abs(z - d) / z in that plane.
+// goes to where that from its centre meets the plane of focus, at the distance d along forward. A point
+// at z spreads over a circle of the diameter 2 R abs(z - d) / z in that plane.
 #pragma once
 
 #include "scenes/types.h"

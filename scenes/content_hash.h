@@ -32,7 +32,7 @@ private:
 /// XXH3 of the bytes: any changed byte changes it, but for one chance in 2^64.
 std::uint64_t hash_of_bytes(std::span<const std::byte> bytes);
 
-/// Of a file's bytes. Throws InputError where there is none.
+/// The hash of a file's bytes. Throws InputError where there is none.
 std::uint64_t hash_of_file(const std::filesystem::path& file);
 
 /// Sixteen hexadecimal digits.

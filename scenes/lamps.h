@@ -4,7 +4,7 @@
 // dimensionless: the light of each, found once, gives that of every state of all.
 //
 // Lamps are the nodes that emit, or their materials, and every punctual and area light; those whose node says
-// the same `extras.lamp` are one lamp of that name. What surrounds the scene is the lamp `sky`, the
+// the same `extras.lamp` are one lamp of that name. The environment is the lamp `sky`, the
 // suns in its picture are the lamp `sun`.
 #pragma once
 

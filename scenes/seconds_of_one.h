@@ -1,4 +1,4 @@
-// How long a piece of work takes here, tried on some of many, which `plan` foretells the whole by.
+// The seconds of one piece of work on this machine, measured on some of many, from which `plan` forecasts the whole.
 #pragma once
 
 #include "scenes/stopwatch.h"
@@ -9,9 +9,10 @@
 namespace meninas {
 
 /// Seconds of one piece, the mean of at most `most` of them and of no more than take a tenth of a second, one
-/// round at least. `work(first, last)` does the pieces [first, last) of an order whose every beginning is spread over all;
-/// rounds are of `at_once` pieces and then double. The first is done once before, uncounted: it fills tables. Limit: the last round
-/// ends after its time, so that all takes three tenths of a second, or two rounds of `at_once` where they are longer.
+/// round at least. `work(first, last)` does the pieces [first, last) of an order whose every beginning is spread over
+/// all; rounds are of `at_once` pieces and then double. The first is done once before, uncounted: it fills tables.
+/// Limit: the last round ends after its time, so that all takes three tenths of a second, or two rounds of `at_once`
+/// where they are longer.
 template <typename Work>
 double seconds_of_one(std::size_t most, std::size_t at_once, const Work& work) {
   constexpr double enough = 0.1;

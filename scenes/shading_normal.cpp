@@ -33,7 +33,7 @@ void mark_curved(Scene& scene, TriangleId triangle, double error) {
   Triangle& own = scene.triangles[index(triangle)];
   own.curved = true;
   const Direction face = glm::normalize(area_vector(corners(scene, triangle)));
-  const double flat = std::max(least_curve, 1.5 * error);
+  const double flat = std::max(min_curve, 1.5 * error);
   own.curved = std::ranges::any_of(corner_normals(scene, triangle), [&](const Direction& n) {
     return glm::distance(n, face) > flat;
   });

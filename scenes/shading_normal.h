@@ -31,8 +31,8 @@
 namespace meninas {
 
 /// A corner's normal, if it is farther from that of the face by more than so many radians,
-/// makes the triangle curved. What exporters round away is below it.
-inline constexpr double least_curve = 1e-3;
+/// makes the triangle curved. The rounding of exporters is below it.
+inline constexpr double min_curve = 1e-3;
 
 /// Tells whether a triangle is curved, by its vertices' normals, which are known up to so many
 /// radians.

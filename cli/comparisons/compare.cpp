@@ -80,7 +80,7 @@ void add_reference_options(Options& command, CompareOptions& options) {
 
 Command add_compare_command(Options& program) {
   Options& command = program.add_command(
-      "compare", "Render a view in every mode, with differences, figures and a page to look at");
+      "compare", "Compare the modes of a view, with figures, as a page");
   const auto options = std::make_shared<CompareOptions>();
   add_scene(command, options->common);
   command

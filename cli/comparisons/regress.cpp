@@ -92,7 +92,7 @@ void run(const RegressOptions& options) {
 
 Command add_regress_command(Options& program) {
   Options& command =
-      program.add_command("regress", "Render cases and compare each with its reference picture");
+      program.add_command("regress", "Render cases and compare them with their references");
   const auto options = std::make_shared<RegressOptions>();
   RegressRequest& request = options->request;
   command

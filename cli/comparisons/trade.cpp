@@ -24,7 +24,7 @@ void run(TradeOptions& options) {
 
 Command add_trade_command(Options& program) {
   Options& command = program.add_command(
-      "trade", "Measure what a second buys: time and error over settings, with a page to look at");
+      "trade", "Measure time against error of many settings, as a page");
   const auto options = std::make_shared<TradeOptions>();
   TradeRequest& request = options->request;
   add_scene(command, options->common);

@@ -1,4 +1,4 @@
-// What a shell needs to complete a command line: commands, options, choices, files, as a script for bash, zsh or fish.
+// Shell completion of command lines: commands, options, choices and files, as a script for bash, zsh or fish.
 #pragma once
 
 #include "cli/options.h"

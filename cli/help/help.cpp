@@ -89,10 +89,10 @@ std::string help_page(const Options& program, HelpExtent extent, int width) {
   for (const auto& [group, options] : groups_of(command)) {
     std::string lines;
     for (const OptionInfo& option : options) {
-      const bool shown = extent == HelpExtent::everything || matters_most(short_name, option);
+      const auto shown = extent == HelpExtent::everything ? std::optional(option) : in_brief(short_name, option);
       complete = complete && shown;
       if (shown)
-        lines += entry(written(option), option.description, width);
+        lines += entry(written(*shown), shown->description, width);
     }
     text += lines.empty() ? "" : fmt::format("\n{}:\n{}", group, lines);
   }
@@ -195,6 +195,7 @@ std::string options_page(const Options& program) {
   for (const SharedOption& one : shared)
     if (std::ranges::find(groups, one.option.group) == groups.end())
       groups.push_back(one.option.group);
+  std::ranges::stable_sort(groups, {}, rank_of_group);
   for (const std::string& group : groups) {
     text += fmt::format("\n## {}\n\n| option | | default | commands |\n|---|---|---|---|\n", group);
     std::vector<OptionInfo> options;

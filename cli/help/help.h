@@ -4,6 +4,7 @@
 
 #include "cli/options.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,11 +16,11 @@ struct Example {
   std::string_view does;
 };
 
-/// The examples of a command, for beginners first. Of the program itself without a name.
+/// The examples of a command, for beginners first; those of the program itself without a name.
 std::span<const Example> examples_of(std::string_view command);
 
-/// Whether `-h` of the command shows the option; `--help-all` shows all of them.
-bool matters_most(std::string_view command, const OptionInfo& option);
+/// The option as `-h` of the command shows it, a line of 80 columns; nothing where `--help-all` alone shows it.
+std::optional<OptionInfo> in_brief(std::string_view command, OptionInfo option);
 
 /// A paragraph about an option that is too long for a terminal, or nothing.
 std::string_view details_of(std::string_view option);
@@ -29,7 +30,7 @@ enum class HelpExtent { what_matters, everything };
 /// Columns of the terminal: COLUMNS, else those that standard output has, else 80.
 int terminal_width();
 
-/// What `-h` prints about the program or, if one was chosen, about a command, wrapped to a width.
+/// The text that `-h` prints about the program or, if one was chosen, about a command, wrapped to a width.
 std::string help_page(const Options& program, HelpExtent extent, int width);
 
 /// All commands with all of their options, as Markdown.

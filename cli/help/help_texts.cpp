@@ -1,6 +1,10 @@
 // What the help pages say beyond the options themselves.
 #include "cli/help/help.h"
 
+#include "cli/help/option_text.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -64,25 +68,123 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
   return examples;
 }
 
-/// The options that `-h` shows, of commands that have many: ten at most.
-const std::map<std::string_view, std::vector<std::string_view>>& first_options() {
-  static const std::map<std::string_view, std::vector<std::string_view>> options{
+/// An option as `-h` shows it. Empty: as --help-all does.
+struct FirstOption {
+  std::string_view name;
+  std::string_view text = {}; ///< its default, if it ends with none, is that of --help-all
+  std::string_view value = {};
+};
+
+/// The options that `-h` shows, ten at most: a line of 80 columns each, names and value at most 22 signs, text and default 54.
+using FirstOptions = std::vector<FirstOption>;
+
+constexpr FirstOption first_quality{"quality", "accuracy: draft, normal or fine", "LEVEL"};
+constexpr FirstOption first_elements{"elements", "mesh elements"};
+constexpr FirstOption first_size{"size", "size in pixels [512x512, or the camera's shape]"};
+constexpr FirstOption first_solution{"solution", "use a solution of `meninas solve`, do not solve"};
+constexpr FirstOption first_page_exposure{"exposure", "brighten the page by EV stops"};
+
+/// Of commands that make pictures and pages of one scene.
+const std::map<std::string_view, FirstOptions>& first_options_of_scenes() {
+  static const std::map<std::string_view, FirstOptions> options{
       {"render",
-       {"output", "quality", "error", "time", "size", "camera", "exposure", "mode", "background",
-        "solution"}},
+       {{"output", "picture: .exr, .hdr or .png; repeatable"},
+        first_quality,
+        {"error", "choose settings for this relative error, such as 0.02"},
+        {"time", "choose settings for the best picture within this time"},
+        first_size,
+        {"camera"},
+        {"exposure"},
+        {"mode", "radiosity, hybrid or reference", "MODE"},
+        {"background"},
+        first_solution}},
       {"solve",
-       {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
-      {"walk", {"output", "quality", "solution", "by-lamp", "exposure", "elements", "background"}},
-      {"bake", {"output", "lightmap-size", "direct", "solution", "quality", "elements", "background"}},
-      {"view", {"port", "no-open", "paused", "quality", "exposure", "elements", "solver", "background"}},
-      {"plan", {"json", "quality", "size", "camera", "background"}},
-      {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}},
+       {{"output"},
+        first_quality,
+        first_elements,
+        {"background"},
+        {"per-node", "write light of each glTF node (W/m^2, lx) as JSON"},
+        {"points", "report the light at points: a .csv of x,y,z,nx,ny,nz"},
+        {"grid", "report the light on a grid on each face; repeatable"},
+        {"units", "of the file: radiometric or photometric", "UNITS"},
+        {"stats"}}},
+      {"walk",
+       {{"output", "page, .html, for any browser with WebGL 2"},
+        first_quality,
+        first_solution,
+        {"by-lamp", "a dimmer for each lamp, by node or material", "[GROUPING]"},
+        first_page_exposure,
+        first_elements,
+        {"background"}}},
+      {"bake",
+       {{"output", "baked scene, .glb, with .lightmap.exr and .png"},
+        {"lightmap-size"},
+        {"direct", "include light straight from lamps"},
+        first_solution,
+        first_quality,
+        first_elements,
+        {"background"}}},
+      {"view",
+       {{"port"},
+        {"no-open"},
+        {"paused", "begin in the dark; N makes the next shot, P goes on"},
+        first_quality,
+        first_page_exposure,
+        first_elements,
+        {"solver", "such as progressive, which shows each shot", "SOLVER"},
+        {"background"}}},
+      {"plan", {{"json"}, first_quality, {"size"}, {"camera"}, {"background"}}}};
+  return options;
+}
+
+/// Of commands that make many pictures, compare them or print numbers.
+const std::map<std::string_view, FirstOptions>& first_options_of_series() {
+  static const std::map<std::string_view, FirstOptions> options{
+      {"compare", {{"output"}, first_quality, {"reference"}, {"max-seconds"}, first_size, {"camera"}, {"exposure"}}},
       {"batch",
-       {"output", "resume", "dry-run", "only", "shard", "memory-limit", "cache", "junit", "schema"}},
-      {"diff", {"output", "heat", "layer", "json", "max-rmse", "max-relmse", "min-ssim", "max-flip"}},
-      {"trade", {"output", "reference", "budget", "camera", "size", "background"}},
+       {{"output"},
+        {"resume", "keep pictures made earlier from the same input"},
+        {"dry-run"},
+        {"only", "only these pictures of --dry-run, such as 1,4-6"},
+        {"shard"},
+        {"memory-limit", "limit of memory, such as 4G"},
+        {"cache", "folder for solutions [.meninas/solutions in -o DIR]"},
+        {"junit"},
+        {"schema"}}},
+      {"merge", {{"output", "picture: .exr, .hdr or .png; repeatable"}, {"depth"}, {"float"}, {"quiet"}}},
+      {"diff",
+       {{"output"},
+        {"heat", "error in the heat map, such as rmse or ssim", "METRIC"},
+        {"layer"},
+        {"json"},
+        {"max-rmse"},
+        {"max-relmse"},
+        {"min-ssim"},
+        {"max-flip", "mean visible difference when flipping, 0 to 1"}}},
+      {"regress",
+       {{"output", "folder for what failures leave"},
+        {"filter"},
+        {"junit"},
+        {"update", "make the references and manifest.json anew"},
+        {"threads"},
+        {"quiet"}}},
+      {"trade",
+       {{"output"},
+        {"reference", "measure against this picture [path tracing]"},
+        {"budget"},
+        {"camera"},
+        {"size"},
+        {"background"}}},
       {"formfactors",
-       {"from", "to", "all", "json", "method", "sides", "accuracy", "rays", "mirror-depth"}}};
+       {{"from"},
+        {"to"},
+        {"all"},
+        {"json"},
+        {"method", "analytic, rays or hemicube", "METHOD"},
+        {"sides", "double-sided: facing, front, back or both", "SIDES"},
+        {"accuracy"},
+        {"rays"},
+        {"mirror-depth", "follow at most N mirrors"}}}};
   return options;
 }
 
@@ -124,7 +226,7 @@ const std::map<std::string_view, std::string_view>& other_details() {
        "`--diffuse direct` most; `--error` and `--time` use it by themselves."},
       {"--diffuse",
        "`interpolated` shows pass one as it is at the vertices. `direct` computes direct light, also "
-       "that reflected by mirrors, as fine as the view's pixels: shadows are as sharp as they are. "
+       "that reflected by mirrors, as fine as the view's pixels, shadow edges included. "
        "`gather` gathers all light at the hit, which takes longest."},
       {"--elements", "a huge ground plane gets at most 75 % of the elements."},
       {"--element-size",
@@ -181,12 +283,23 @@ std::span<const Example> examples_of(std::string_view command) {
   return found == all_examples().end() ? std::span<const Example>{} : found->second;
 }
 
-bool matters_most(std::string_view command, const OptionInfo& option) {
-  const auto found = first_options().find(command);
-  if (found == first_options().end() || !option.place.empty() || option.long_names.empty())
-    return true;
-  const std::string& name = option.long_names.front();
-  return name == "help" || std::ranges::find(found->second, name) != found->second.end();
+std::optional<OptionInfo> in_brief(std::string_view command, OptionInfo option) {
+  for (const auto* commands : {&first_options_of_scenes(), &first_options_of_series()}) {
+    const auto found = commands->find(command);
+    if (found == commands->end() || is_placed(option) || option.long_names.empty() || option.long_names.front() == "help")
+      continue;
+    const auto first = std::ranges::find(found->second, option.long_names.front(), &FirstOption::name);
+    if (first == found->second.end())
+      return std::nullopt;
+    const std::string standard = default_apart(option.description).second;
+    if (!first->text.empty())
+      option.description = standard.empty() || first->text.ends_with(']')
+                               ? std::string(first->text)
+                               : fmt::format("{} [{}]", first->text, standard);
+    if (!first->value.empty())
+      option.value = first->value;
+  }
+  return option;
 }
 
 std::string_view details_of(std::string_view option) {

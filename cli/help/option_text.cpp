@@ -6,7 +6,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <string_view>
 
 namespace meninas {
 namespace {
@@ -46,6 +48,12 @@ std::string written(const OptionInfo& option) {
   return option.takes_value == TakesValue::no ? text : text + ' ' + option.value;
 }
 
+int rank_of_group(const std::string& name) {
+  constexpr std::array<std::string_view, 5> last{light_group, sky_group, file_group, run_group, study_group};
+  const auto found = std::ranges::find(last, name);
+  return found == last.end() ? 0 : 1 + static_cast<int>(found - last.begin());
+}
+
 OptionGroups groups_of(const Options& command) {
   OptionGroups groups;
   std::vector<OptionInfo> options = command.list();
@@ -57,6 +65,7 @@ OptionGroups groups_of(const Options& command) {
       group = groups.insert(groups.end(), {option.group, {}});
     group->second.push_back(option);
   }
+  std::ranges::stable_sort(groups, {}, [](const auto& group) { return rank_of_group(group.first); });
   return groups;
 }
 

@@ -1,5 +1,5 @@
-// How commands and options are written, wherever they are written about: on a terminal, in docs/options.md, in
-// manual pages and in the completions of shells.
+// The spelling of commands and options, common to the terminal, docs/options.md, the manual pages and the
+// completions of shells.
 #pragma once
 
 #include "cli/options.h"
@@ -32,7 +32,10 @@ std::vector<std::string> names_with_dashes(const OptionInfo& option);
 /// "-o, --output FILE"
 std::string written(const OptionInfo& option);
 
-/// Options by group, in the order in which they were added: the scene first, help last.
+/// By which groups are sorted: 0 a command's own, then those of many commands.
+int rank_of_group(const std::string& name);
+
+/// Options by group, in the order in which they were added, of many commands last: the scene first, help last.
 using OptionGroups = std::vector<std::pair<std::string, std::vector<OptionInfo>>>;
 OptionGroups groups_of(const Options& command);
 

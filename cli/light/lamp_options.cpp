@@ -52,20 +52,23 @@ LampGrouping parse_lamp_grouping(const std::string& option, const std::string& t
   return parse_choice(option, text.empty() || text == preset_value ? "node" : text, lamp_groupings);
 }
 
-Option add_lamp_factors(Options& command, const std::string& description,
-                         std::vector<LampFactor>& lamps) {
-  return command.add_repeatable("--lamp", "NAME=FACTOR|R,G,B", description,
-                                [&lamps](const std::string& text) { add_lamps(text, lamps); });
+void add_lamp_factors(Options& command, const std::string& description,
+                      std::vector<LampFactor>& lamps) {
+  command
+      .add_repeatable("--lamp", "NAME=FACTOR|R,G,B", description,
+                      [&lamps](const std::string& text) { add_lamps(text, lamps); })
+      .group(light_group);
 }
 
-Option add_by_lamp(Options& command, const std::string& description,
-                    std::optional<LampGrouping>& grouping) {
-  return command
+void add_by_lamp(Options& command, const std::string& description,
+                 std::optional<LampGrouping>& grouping) {
+  command
       .add("--by-lamp", "[node|material]", description,
            [&grouping](const std::string& text) {
              grouping = parse_lamp_grouping("--by-lamp", text);
            })
-      .value_if_given(preset_value);
+      .value_if_given(preset_value)
+      .group(light_group);
 }
 
 } // namespace meninas

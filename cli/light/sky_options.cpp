@@ -13,8 +13,6 @@ namespace meninas {
 
 namespace {
 
-constexpr const char* sky_group = "Sky";
-
 // As of emission in files:
 // its square is still in the range of the floats that pictures are made of.
 constexpr double brightest_background = 1e30;
@@ -134,15 +132,17 @@ void add_sun_options(Options& command, EnvironmentChoice& sky) {
 
 void add_sky_options(Options& command, RunSettings& settings) {
   EnvironmentChoice& sky = settings.environment;
-  command.add("--background", "L|R,G,B", "radiance of the sky around the scene, W/m^2/sr [0]",
-              [&](const std::string& text) {
-                const Rgb radiance = parse_colour("--background", text);
-                if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
-                  throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
-                                                               brightest_background));
-                }
-                settings.background = radiance;
-              });
+  command
+      .add("--background", "L|R,G,B", "radiance of the sky around the scene, W/m^2/sr [0]",
+           [&](const std::string& text) {
+             const Rgb radiance = parse_colour("--background", text);
+             if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
+               throw UsageError("--background",
+                                fmt::format("'{}' is over {:g} W/m^2/sr", text, brightest_background));
+             }
+             settings.background = radiance;
+           })
+      .group(light_group);
   command
       .add("--environment", "FILE",
            "a picture of the sky around the scene, equirectangular, .hdr or .exr, W/m^2/sr [none]",

@@ -18,8 +18,8 @@ struct BakeOptions {
 
 int parse_lightmap_size(const std::string& text) {
   const double size = parse_number("--lightmap-size", text, Sign::positive);
-  if (size != std::floor(size) || size < least_lightmap || size > largest_lightmap)
-    throw UsageError("--lightmap-size", fmt::format("'{}' is no whole number from {} to {}", text, least_lightmap,
+  if (size != std::floor(size) || size < min_lightmap || size > largest_lightmap)
+    throw UsageError("--lightmap-size", fmt::format("'{}' is no whole number from {} to {}", text, min_lightmap,
                                                     largest_lightmap));
   return static_cast<int>(size);
 }

@@ -89,7 +89,7 @@ void run(const Options& command, ViewOptions& options) {
 } // namespace
 
 Command add_view_command(Options& program) {
-  Options& command = program.add_command("view", "Watch a scene being solved, in a browser, and walk through it meanwhile");
+  Options& command = program.add_command("view", "Watch a scene being solved, in a browser");
   const auto options = std::make_shared<ViewOptions>();
   add_scene(command, options->common);
   command.add("--port", "N", "listen on that port of 127.0.0.1 [any that is free]", [=](const std::string& text) {

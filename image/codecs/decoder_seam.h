@@ -51,7 +51,7 @@ struct Decoded {
   char error[512];
 };
 
-/// What is read of a file: all parts of an EXR; or what a glTF file may name,
+/// The content that is read of a file: all parts of an EXR; or the formats that a glTF file may name,
 /// the first part, and no TIFF, whose size is not checked against the memory (scenes/materials/image_size.h);
 /// or a window, however much larger the picture is.
 enum class Use { picture, texture, window };

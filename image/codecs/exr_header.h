@@ -1,4 +1,4 @@
-// What an EXR's header promises, checked against the file before OpenEXR believes it.
+// Checks of an EXR's header against the size of the file, before OpenEXR relies on it.
 //
 // OpenEXR allocates room for every attribute,
 // for the table of chunks and for buffers of rows as the header says, before it reads any of them:

@@ -1,4 +1,4 @@
-// Pictures in PNG files, read by libpng alone. What it finds wrong becomes one line; nothing goes to stderr.
+// Pictures in PNG files, read by libpng alone. Its errors become one line; nothing goes to stderr.
 //
 // Gamma, profiles and texts are passed over, as glTF tells its readers to.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace meninas::decoder {
 
-/// What a header says; palettes are RGB and transparent colours a channel of alpha.
+/// The content of a header; palettes are RGB and transparent colours a channel of alpha.
 struct PngShape {
   int width = 0, height = 0;
   int channels = 0; ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha

@@ -1,5 +1,4 @@
-// What moved between two pictures, in words:
-// where most of the difference is, and whether it is brighter or darker there.
+// The difference between two pictures in words: where most of it is, and whether it is brighter or darker there.
 #pragma once
 
 #include "image/image.h"

@@ -1,4 +1,4 @@
-// How far a picture is from its reference, in numbers and pixel by pixel.
+// Error metrics between a picture and its reference, in numbers and pixel by pixel.
 //
 // With a the picture, b the reference,
 // means over all pixels and the three channels of linear radiance:
@@ -55,7 +55,7 @@ double value_of(const PictureDifference& difference, Metric metric);
 PictureDifference compare_pictures(const Image& picture, const Image& reference,
                                    const MetricSettings& settings = {});
 
-/// What each pixel adds: the root of the mean square over its channels (rmse, psnr),
+/// The contribution of each pixel: the root of the mean square over its channels (rmse, psnr),
 /// the mean of its relative squares (relmse), of its absolute differences (mae),
 /// their largest (max_abs), 1 - SSIM, FLIP. 0 where a pixel is right.
 Channel error_map(const PictureDifference& difference, Metric metric, const Image& picture,

@@ -1,4 +1,4 @@
-// How far a picture is from a reference, as one number:
+// The relative error of a picture against a reference:
 // the root of the mean square of the difference over the mean of the reference,
 //
 //   e^2 = sum over pixels and channels of ((a - b)^2 - v)  /  (sum of b)^2  *  number of either

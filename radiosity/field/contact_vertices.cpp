@@ -64,7 +64,7 @@ ContactLight light_at_contact(const PointGathering& gathering, const std::vector
   point.position = glm::mix(exposed.receiver.position, covered, place);
   const VertexValue value =
       value_at(gathering, irradiance, {point, exposed.element_size, exposed.seed}, work);
-  return {value.cover == Cover::open ? place : 0.0, value};
+  return {value.clearance == Clearance::open ? place : 0.0, value};
 }
 
 void ContactLines::add(const ArrivingLight& seen, const ArrivingLight& beside, double place) {
@@ -133,7 +133,7 @@ void extend_over_regions(const ElementMesh& mesh, std::span<const Receiver> rece
         const Vec3 way = mesh.vertices[v] - mesh.vertices[n];
         const Vec3 to = receivers[v].position - mesh.vertices[n];
         const double place = glm::dot(to, way) / glm::dot(way, way);
-        // Of its edges the one on which light is gathered for the vertex (vertex_places.h).
+        // The edge on which light is gathered for the vertex (vertex_places.h).
         if (!(place > 0.0 && place < 1.0 &&
               glm::distance(to, place * way) < 0.05 * glm::length(way)))
           continue;

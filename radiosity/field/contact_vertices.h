@@ -7,7 +7,7 @@
 //
 //   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  at least 0,
 //
-// for direct light and for the rest,
+// for direct and for indirect light,
 // each with the part of it that comes by way of mirrors.
 //
 // Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule).
@@ -39,7 +39,7 @@ std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
 double contact_place(const Receiver& exposed, const Point3& covered,
                      const std::function<bool(const Receiver&)>& is_open);
 
-/// What is gathered on an edge before something begins to stand on it.
+/// The light gathered on an edge, next to the place where an object begins to stand on it.
 struct ContactLight {
   double place; ///< of p, as a share of the edge from its exposed end; 0 where none was found
   VertexValue value;

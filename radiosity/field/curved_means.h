@@ -14,7 +14,7 @@
 
 namespace meninas {
 
-/// By ElementId. `values` by ElementVertexId.
+/// By ElementId, in the units of `values` (W/m^2). `values` by ElementVertexId.
 std::vector<Rgb> curved_means(const ElementMesh& mesh, const VertexEdges& edges,
                               std::span<const glm::vec3> values);
 

@@ -9,8 +9,8 @@
 //   G'_v = sum_u G_u A_u w_uv / sum_v A_v w_uv,     w_uv = 1 - ring of v around u / (R + 1),
 //
 // u over vertices with 0 < k < n hits, A the area around a vertex, R the number of rings. The sum
-// of A G stays as it is. Relative noise is about 1 / sqrt(2 n / 3), of cones, and more beside edges. Vertices of n hits and more are
-// left alone and give way to nothing: light that rays find well keeps its edges.
+// of A G stays as it is. Relative noise is about 1 / sqrt(2 n / 3), of cones, and more beside edges. Vertices of n hits
+// and more are left alone and give way to nothing: light that rays find well keeps its edges.
 // Limit: hits rarer than one in a neighbourhood of `max_rings` stay as faint spots of that size.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace meninas {
 
-/// What a vertex has gathered of emission.
+/// The emission that a vertex has gathered.
 struct VertexEmission {
   std::uint32_t vertex = 0;                      ///< ElementVertexId
   std::uint32_t hits = 0;                        ///< rays that met it

@@ -11,7 +11,7 @@ namespace meninas {
 
 namespace {
 
-constexpr double most_points = 4.0; ///< that gather in an element
+constexpr double max_points = 4.0; ///< that gather in an element
 
 struct GapSum {
   GapLight light;
@@ -55,11 +55,11 @@ bool meets_light(const PointGathering& gathering, const std::vector<Rgb>& irradi
   const FaceRecord& face = light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
   if (face.side == FaceRecord::nothing)
     return face.mirrors;
-  const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  const glm::vec2 uv = hit_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
   return irradiance[land(light.landing.elements, face.side, uv).element] != Rgb(0.0);
 }
 
-/// Those of the points of an element from which the ray along the normal comes to light, by bits.
+/// The points of an element from which the ray along the normal meets light, as bits.
 std::uint32_t points_that_see_light(const PointGathering& gathering,
                                     const std::vector<Rgb>& irradiance, const ElementMesh& mesh,
                                     ElementId element, PointWorkspace& work) {
@@ -88,21 +88,21 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
   const double size = size_of(mesh, element);
   GapSum open, low;
   for (std::uint32_t lit = points_that_see_light(gathering, irradiance, mesh, element, work);
-       lit != 0 && open.count < most_points; lit &= lit - 1) {
+       lit != 0 && open.count < max_points; lit &= lit - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(lit));
     const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class, side.tangent,
                             side.coat};
-    if (low.count >= most_points && is_under_something(gathering.light, receiver, size))
+    if (low.count >= max_points && is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
     const VertexValue value = value_at(gathering, irradiance, {receiver, size, seed}, work);
     // Where the one arrives at nothing but the void, so do the others.
-    if (value.irradiance.total == Rgb(0.0) && value.cover != Cover::low)
+    if (value.irradiance.total == Rgb(0.0) && value.clearance != Clearance::low)
       break;
-    if (value.cover != Cover::shut)
-      (value.cover == Cover::open ? open : low).add({value.irradiance, value.indirect});
+    if (value.clearance != Clearance::enclosed)
+      (value.clearance == Clearance::open ? open : low).add({value.irradiance, value.indirect});
   }
-  // What is under a low cover counts where nothing is open.
+  // Points under a low cover count where none is open.
   const GapSum& sum = open.count > 0.0 ? open : low;
   return sum.count > 0.0 ? std::optional(sum.mean()) : std::nullopt;
 }

@@ -2,7 +2,10 @@
 // open in between, as the floor is between two boxes closer together than its elements are wide.
 //
 // A point is open if a ray along the normal reaches a lit surface. Sixteen points are tested, up to
-// four gather, and the corners take the means of their elements.
+// four gather, and the corners take the means of their elements:
+//
+//   H_e = 1/m sum_k H(x_k),  m <= 4,    H_v = 1/n sum over the n such elements e at v of H_e      W/m^2
+//
 // Runs after contact_vertices.h, which handles elements with at least one open corner.
 #pragma once
 
@@ -14,8 +17,7 @@
 
 namespace meninas {
 
-/// What arrives in the mean at the open ones of a few points of an element;
-/// none where all are covered.
+/// The mean irradiance at the open ones of a few points of an element; none where all are covered.
 struct GapLight {
   ArrivingLight irradiance, indirect;
 };

@@ -32,7 +32,7 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
                                  const InterpolationSettings& settings, const Progress& progress) {
   PointWorkspaces workspaces;
   const VertexElements facets =
-      elements.from_source.empty() ? VertexElements{} : facets_around(light);
+      elements.direct.empty() ? VertexElements{} : facets_around(light);
   VertexSamples found = make_samples(light, facets);
   if (!facets.elements.empty())
     average_facets(light, elements, facets, {form_factors, {}, settings.mirrored}, workspaces,

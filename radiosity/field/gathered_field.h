@@ -3,7 +3,7 @@
 //
 //   H(x) = D(x) + sum_w tau_w sum_j F^w_xj B_j      at every vertex x
 //
-// direct light in closed form, the rest by rays (point_irradiance.h).
+// direct light in closed form, indirect light by rays (point_irradiance.h).
 // Facets of curved surfaces take means instead (smoothing_groups.h),
 // vertices on which something stands what is gathered beside it (contact_vertices.h).
 // Where the indirect part bends by more than the settings allow (interpolation_error.h),

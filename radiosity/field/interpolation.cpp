@@ -34,7 +34,7 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
     if (reach < 0.2 * size_of(mesh, mesh.element_of_vertex[v]) * 0.5)
       continue;
 
-    // Of the corners of those elements the one most straight inward carries the inner mean.
+    // The corner of those elements that lies most straight inward carries the inner mean.
     double straightest = 0.0;
     std::size_t inner = v;
     for (const ElementId element : around(all, v))
@@ -60,15 +60,15 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 } // namespace
 
 /// The means of elements know nothing of mirrors;
-/// what emitters send is known where it was found from the source.
+/// what emitters send is known where it was computed as direct light.
 static VertexIrradiance averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
   VertexIrradiance field;
   field.irradiance = average_at_vertices(mesh, elements.irradiance);
-  if (elements.from_source.empty())
+  if (elements.direct.empty())
     return field;
   std::vector<Rgb> indirect = elements.irradiance;
   for (std::size_t e = 0; e < indirect.size(); ++e)
-    indirect[e] -= elements.from_source[e];
+    indirect[e] -= elements.direct[e];
   field.indirect = average_at_vertices(mesh, indirect);
   return field;
 }

@@ -58,7 +58,7 @@ double ordinary_bend(const ElementMesh& mesh, std::span<const glm::vec3> irradia
   return *middle;
 }
 
-/// What an element is off by, as a share of B_mean, by its part of all area.
+/// The error of an element, as a share of B_mean, weighted by its part of all area.
 double of_all(const ElementMesh& mesh, std::size_t e, double off, const BendScale& scale) {
   const Rgb rho = scattered_share(mesh, e);
   return std::max({rho.r, rho.g, rho.b}) * off * std::sqrt(mesh.area[e] / scale.area) /

@@ -29,7 +29,7 @@
 
 namespace meninas {
 
-/// What bends are held against.
+/// The scale of the interpolation error.
 struct BendScale {
   double area = 0.0;      ///< A_mean, m^2
   double radiosity = 0.0; ///< B_mean, W/m^2, the brightest channel
@@ -51,8 +51,7 @@ std::vector<double> interpolation_error(const ElementMesh& mesh,
                                       NoiseThreshold stands_out = of_gathered,
                                       std::span<const std::uint8_t> on_lamps = {});
 
-/// The same by the edges that go on at neither end: what there may be at the most where light is
-/// no wilder than a parabola, and not what there is.
+/// The same from edges without a continuation: an upper bound for parabolic light, not an estimate.
 std::vector<double> edge_difference_error(const ElementMesh& mesh,
                                         std::span<const glm::vec3> irradiance,
                                         const BendScale& scale);

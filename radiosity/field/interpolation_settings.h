@@ -1,4 +1,4 @@
-// How the irradiance field is found from the solution of pass one, and how exactly.
+// The method and accuracy by which the irradiance field follows from the solution of pass one.
 #pragma once
 
 namespace meninas {
@@ -9,7 +9,7 @@ struct InterpolationSettings {
   Interpolation method = Interpolation::gather;
   int rays = 512; ///< per vertex, for `gather`
   int cluster_shadow_rays =
-      8; ///< per bright cluster (secondary_emitters.h) and vertex, where it matters most
+      8; ///< per secondary emitter (secondary_emitters.h) and vertex, where it matters most
   double bend =
       0.0; ///< X: elements in which indirect light bends by more are divided (gathered_field.h); 0: none
   double shadow_bend =

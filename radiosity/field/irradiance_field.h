@@ -18,10 +18,10 @@
 
 namespace meninas {
 
-/// What one lamp sends (scene/lamp_shares.h), by ElementVertexId, W/m^2.
+/// The irradiance from one lamp (scene/lamp_shares.h), by ElementVertexId, W/m^2.
 struct VertexLightOfLamp {
-  std::vector<glm::vec3> direct;   ///< computed from the source
-  std::vector<glm::vec3> indirect; ///< the rest
+  std::vector<glm::vec3> direct;   ///< D (light/direct_irradiance.h)
+  std::vector<glm::vec3> indirect; ///< H - D
 };
 
 /// By ElementVertexId of one mesh, W/m^2.
@@ -30,7 +30,7 @@ struct VertexIrradiance {
   std::vector<glm::vec3>
       mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`, and where nobody asks
 
-  /// The part without what is computed from the source (direct_irradiance.h), for those who compute
+  /// Indirect irradiance, H without D (direct_irradiance.h), for those who compute
   /// that themselves; empty where that is not known: from `average` with form factors `analytic`.
   std::vector<glm::vec3> indirect;
   std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
@@ -70,10 +70,10 @@ struct InterpolatedField {
 struct ElementLight {
   std::vector<Rgb> reflected;   ///< B without emission
   std::vector<Rgb> irradiance;  ///< H
-  std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
+  std::vector<Rgb> direct; ///< D, a part of H; empty: not known
   TranslucentLinks translucent = {}; ///< what comes through from one to another
   LightByLamp by_lamp = {}, irradiance_by_lamp = {},
-      from_source_by_lamp = {}; ///< of these, in proportion; empty where light is not told apart
+      direct_by_lamp = {}; ///< of these, in proportion; empty where light is not told apart
 };
 
 /// The field at a point of a side.

@@ -11,7 +11,7 @@ namespace meninas {
 namespace {
 
 bool has_light(VertexState state) {
-  return state == VertexState::lit || state == VertexState::low || state == VertexState::gathered;
+  return state == VertexState::direct_only || state == VertexState::low_clearance || state == VertexState::gathered;
 }
 
 /// Vertices of few samples in one element with one that sees an image in part.
@@ -19,13 +19,13 @@ std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
   std::vector<std::uint8_t> is_beside(found.states.size(), 0);
   for (const ElementCorners& corners : found.mesh.corners)
     if (std::ranges::any_of(corners, [&](ElementVertexId v) {
-          return found.seen[index(v)] == Visibility::in_part;
+          return found.seen[index(v)] == Visibility::partial;
         }))
       for (const ElementVertexId v : corners)
         is_beside[index(v)] = 1;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < is_beside.size(); ++v)
-    if (is_beside[v] != 0 && found.seen[v] == Visibility::alike && has_light(found.states[v]))
+    if (is_beside[v] != 0 && found.seen[v] == Visibility::uniform && has_light(found.states[v]))
       vertices.push_back(v);
   return vertices;
 }
@@ -47,7 +47,7 @@ void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, Ve
         field.by_lamp[l].direct[v] = glm::vec3(work.direct_by_lamp[l]);
       field.irradiance[v] = field.indirect[v] + glm::vec3(light.total);
       field.mirrored[v] = field.indirect_mirrored[v] + glm::vec3(light.mirrored);
-      found.seen[v] = light.in_part ? Visibility::in_part : Visibility::confirmed;
+      found.seen[v] = light.in_part ? Visibility::partial : Visibility::confirmed;
     });
   }
 }

@@ -13,7 +13,7 @@ namespace meninas {
 
 namespace {
 
-std::vector<glm::vec3> from_source(const VertexIrradiance& field) {
+std::vector<glm::vec3> direct(const VertexIrradiance& field) {
   std::vector<glm::vec3> light = field.irradiance;
   for (std::size_t v = 0; v < light.size(); ++v)
     light[v] -= field.indirect[v];
@@ -22,7 +22,7 @@ std::vector<glm::vec3> from_source(const VertexIrradiance& field) {
 
 bool has_means(const VertexSamples& found, std::size_t element) {
   return std::ranges::any_of(found.mesh.corners[element], [&](ElementVertexId v) {
-    return found.states[index(v)] == VertexState::averaged;
+    return found.states[index(v)] == VertexState::smoothed;
   });
 }
 
@@ -30,11 +30,11 @@ bool has_means(const VertexSamples& found, std::size_t element) {
 /// the difference between corners tells that there may be an edge on them.
 /// Where these have the mean of many facets it tells how the curve turns, and is left out.
 std::vector<double> bends_of(const VertexSamples& found, const BendScale& scale, bool first) {
-  const std::vector<glm::vec3> light = from_source(found.field);
+  const std::vector<glm::vec3> light = direct(found.field);
   std::vector<std::uint8_t> on_lamps;
   for (std::size_t v = 0; v < found.states.size(); ++v) {
     const Rgb& emission = found.mesh.emission[index(found.mesh.element_of_vertex[v])];
-    on_lamps.push_back(found.states[v] == VertexState::averaged && emission != Rgb(0.0) ? 1 : 0);
+    on_lamps.push_back(found.states[v] == VertexState::smoothed && emission != Rgb(0.0) ? 1 : 0);
   }
   std::vector<double> bends =
       interpolation_error(found.mesh, light, scale, of_source, on_lamps);
@@ -47,7 +47,7 @@ std::vector<double> bends_of(const VertexSamples& found, const BendScale& scale,
   return bends;
 }
 
-/// Those that are bent by more than x, of more than `most` the most bent.
+/// The elements that are bent by more than x; if they are more than `most`, the most bent.
 std::vector<std::uint8_t> max_bent(const std::vector<double>& bends, double x, std::size_t most) {
   std::vector<double> bent;
   std::ranges::copy_if(bends, std::back_inserter(bent), [x](double bend) { return bend > x; });
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> max_bent(const std::vector<double>& bends, double x, s
   return bent_by_more(bends, x);
 }
 
-/// What the coarser mesh has there.
+/// The light of the coarser mesh at a vertex.
 struct CoarseLight {
   glm::vec3 irradiance, mirrored, indirect, indirect_mirrored;
   bool beside_covered; ///< in an element with a covered corner
@@ -87,7 +87,7 @@ CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
           at};
 }
 
-/// The same by lamp: the rest as there, and direct light where the vertex has none of its own.
+/// The same by lamp: indirect light as there, and direct light where the vertex has none of its own.
 void take_lamps(const VertexSamples& coarse, const ElementPoint& at, bool covered, std::size_t v,
                 VertexIrradiance& field) {
   for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
@@ -101,14 +101,14 @@ void take_lamps(const VertexSamples& coarse, const ElementPoint& at, bool covere
 /// Direct light at fresh vertices, and what else is there as the coarser mesh has it.
 /// Under things all is as that has it: what is gathered beside them. A cover that is low for the
 /// elements that were solved, some of whose corners it covers, is as low for smaller ones.
-void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
+void compute_direct_at_new(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
                  const VertexSamples& coarse, VertexSamples& found) {
   VertexIrradiance& field = found.field;
   std::vector<std::uint32_t> fresh; // new, or has hung so far
   for (std::uint32_t v = 0; v < found.states.size(); ++v)
     if (found.states[v] == VertexState::unknown) {
       fresh.push_back(v);
-      found.seen[v] = Visibility::alike;
+      found.seen[v] = Visibility::uniform;
       field.irradiance[v] = field.mirrored[v] = field.indirect[v] = field.indirect_mirrored[v] =
           glm::vec3(0.0F);
       for (auto& [direct, indirect] : field.by_lamp)
@@ -149,13 +149,13 @@ double weight_of(const DirectRefinement& wanted, std::size_t element) {
 }
 
 /// Facets with edges have direct light of their own at their corners.
-void light_facets_with_edges(const LightScene& light, const VertexSource& source,
+void light_faces_with_shadow_edges(const LightScene& light, const VertexSource& source,
                              const DirectRefinement& wanted, std::uint32_t level,
                              VertexSamples& found) {
-  if (std::ranges::find(found.states, VertexState::averaged) == found.states.end())
+  if (std::ranges::find(found.states, VertexState::smoothed) == found.states.end())
     return;
   const std::vector<double> bends =
-      edge_difference_error(found.mesh, from_source(found.field), wanted.scale);
+      edge_difference_error(found.mesh, direct(found.field), wanted.scale);
   std::vector<ElementId> bent;
   for (std::uint32_t e = 0; e < bends.size(); ++e)
     if (weight_of(wanted, e) * bends[e] > wanted.x && has_means(found, e))
@@ -166,9 +166,9 @@ void light_facets_with_edges(const LightScene& light, const VertexSource& source
   const VertexSamples before = found;
   for (const ElementId facet : facets)
     for (const ElementVertexId corner : found.mesh.corners[index(facet)])
-      if (found.states[index(corner)] == VertexState::averaged)
+      if (found.states[index(corner)] == VertexState::smoothed)
         found.states[index(corner)] = VertexState::unknown;
-  light_fresh(source, light.surfaces, level, before, found);
+  compute_direct_at_new(source, light.surfaces, level, before, found);
 }
 
 } // namespace
@@ -182,9 +182,9 @@ void refine_direct(const LightScene& light, const VertexSource& source,
     return;
   const std::size_t solved = element_count(found.mesh), most = solved + max_at_shadows(solved);
   found.field = std::move(result.field);
-  std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
+  std::ranges::replace(found.states, VertexState::low_clearance, VertexState::gathered);
   std::vector<float> weights = parts_of(light.mesh, refinement.weights, found.mesh);
-  light_facets_with_edges(light, source, {refinement.scale, refinement.x, weights},
+  light_faces_with_shadow_edges(light, source, {refinement.scale, refinement.x, weights},
                           first_level - 1, found);
   std::uint32_t level = 0;
   for (; level < max_divisions; ++level) {
@@ -198,10 +198,10 @@ void refine_direct(const LightScene& light, const VertexSource& source,
     if (std::ranges::find(marked, 1) == marked.end())
       break;
     // Every vertex that has a value keeps it, and none asks anew how it sees the source.
-    std::ranges::replace(found.seen, Visibility::alike, Visibility::confirmed);
+    std::ranges::replace(found.seen, Visibility::uniform, Visibility::confirmed);
     const VertexSamples coarse = std::move(found);
     found = divided(light, coarse, marked);
-    light_fresh(source, light.surfaces, first_level + level, coarse, found);
+    compute_direct_at_new(source, light.surfaces, first_level + level, coarse, found);
     weights = parts_of(coarse.mesh, weights, found.mesh);
   }
   result.field = std::move(found.field);

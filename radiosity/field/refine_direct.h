@@ -19,19 +19,19 @@
 #pragma once
 
 #include "radiosity/field/interpolation_error.h"
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 
 #include <algorithm>
 #include <span>
 
 namespace meninas {
 
-/// How many more elements there may be, besides those that follow their neighbours.
+/// The largest number of new elements, besides those that follow their neighbours.
 inline std::size_t max_at_shadows(std::size_t solved) {
   return std::max<std::size_t>(solved, 16384);
 }
 
-/// Which elements are divided.
+/// The criterion by which elements are divided.
 struct DirectRefinement {
   BendScale scale;
   double x = 0.0;                          ///< X; 0: none

@@ -2,11 +2,11 @@
 //
 // Elements in which indirect light bends by more than X of the scene's mean (interpolation_error.h) are divided,
 // and light is gathered at the vertices that they get, up to three times.
-// What light comes from stays as it was.
+// The elements that send the light stay as they were.
 #pragma once
 
 #include "radiosity/field/interpolation_error.h"
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 
 namespace meninas {
 

@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// Of sixteen directions over a point, how many are blocked within a fraction of an element.
+/// The number of directions, of sixteen over a point, that are blocked within a fraction of an element.
 static std::size_t blocked_nearby(const LightScene& light, const Receiver& receiver,
                                   double element_size) {
   constexpr double reach = 0.35;
@@ -38,8 +38,8 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
 bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
                                double element_size) {
   // A wall beside the point blocks half of the directions, an overhang more.
-  constexpr std::size_t most_blocked = packet_size / 2 + 2;
-  return blocked_nearby(light, receiver, element_size) > most_blocked;
+  constexpr std::size_t max_blocked = packet_size / 2 + 2;
+  return blocked_nearby(light, receiver, element_size) > max_blocked;
 }
 
 bool touches_wall(const LightScene& light, const Receiver& receiver) {
@@ -64,29 +64,29 @@ static bool sees_black(const GatheredRays& gathered) {
   return gathered.black > max_black * gathered.rays;
 }
 
-/// What is over a point, by what it sees.
-static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& receiver,
+/// The clearance of a point, by its view.
+static Clearance clearance_of(bool is_enclosed_here, const LightScene& light, const Receiver& receiver,
                       double element_size) {
-  if (is_shut)
-    return Cover::shut;
-  return is_under_something(light, receiver, element_size) ? Cover::low : Cover::open;
+  if (is_enclosed_here)
+    return Clearance::enclosed;
+  return is_under_something(light, receiver, element_size) ? Clearance::low : Clearance::open;
 }
 
 /// Whether nearly all that a point sees is black, as few rays tell:
 /// it is inside something that stands on its surface.
-static bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+static bool is_enclosed_at(const LightScene& light, const FormFactorSettings& form_factors,
                        const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
-  constexpr int few_rays = 32;
-  static const HemisphereSamples net = make_direction_net(few_rays);
+  constexpr int ray_count = 32;
+  static const HemisphereSamples net = make_direction_net(ray_count);
   gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
   work.rays += work.gather.result.traced;
   return sees_black(work.gather.result);
 }
 
-Cover clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
+Clearance clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
                         const Receiver& receiver, double element_size, std::uint32_t seed,
                         PointWorkspace& work) {
-  return cover_of(is_shut_in(light, form_factors, receiver, seed, work), light, receiver,
+  return clearance_of(is_enclosed_at(light, form_factors, receiver, seed, work), light, receiver,
                   element_size);
 }
 
@@ -103,14 +103,14 @@ static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& ir
 /// Whether any direct light arrives.
 static bool is_lit(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                    PointWorkspace& work) {
-  return light_from_source(gathering, receiver, seed, work).total != Rgb(0.0);
+  return direct_light_at(gathering, receiver, seed, work).total != Rgb(0.0);
 }
 
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
              const GatheringPoint& at, PointWorkspace& work) {
   const auto& [receiver, element_size, seed] = at;
-  constexpr int few_rays = 16;
-  static const HemisphereSamples net = make_direction_net(few_rays);
+  constexpr int ray_count = 16;
+  static const HemisphereSamples net = make_direction_net(ray_count);
   if (is_nearly_under_something(gathering.light, receiver, element_size))
     return false;
   gather_rays(gathering.light, net, area_of(receiver), seed, gathering.form_factors, work.gather);
@@ -123,10 +123,10 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
   const auto& [receiver, element_size, seed] = at;
   const PointLight arrived = light_at(gathering, receiver, seed, work);
   const bool shut =
-      is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
+      is_enclosed(work.gather.result, irradiance) && arrived.direct.total == Rgb(0.0);
   ArrivingLight all = arrived.all();
-  all.in_part = arrived.from_source.in_part;
-  return {all, arrived.indirect(), cover_of(shut, gathering.light, receiver, element_size),
+  all.in_part = arrived.direct.in_part;
+  return {all, arrived.indirect(), clearance_of(shut, gathering.light, receiver, element_size),
           arrived.emission, arrived.hits};
 }
 
@@ -137,23 +137,23 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
   const PointLight arrived =
       indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr);
   ArrivingLight indirect = arrived.indirect();
-  indirect.in_part = false; // of bright clusters
+  indirect.in_part = false; // of secondary emitters
   if (kept != nullptr && !are_there)
     kept->rays = work.gather.result;
   const bool dark =
       is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
   work.direct_by_lamp.clear(); // it has been taken already
   if (dark)
-    return {indirect, indirect, Cover::shut, arrived.emission, arrived.hits};
+    return {indirect, indirect, Clearance::enclosed, arrived.emission, arrived.hits};
   const bool low = kept != nullptr && kept->is_under_something
                        ? *kept->is_under_something
                        : is_under_something(gathering.light, receiver, element_size);
   if (kept != nullptr)
     kept->is_under_something = low;
-  return {indirect, indirect, low ? Cover::low : Cover::open, arrived.emission, arrived.hits};
+  return {indirect, indirect, low ? Clearance::low : Clearance::open, arrived.emission, arrived.hits};
 }
 
-ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
+ArrivingLight direct_light_at(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work) {
   const ArrivingLight light =
       direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);

@@ -1,5 +1,9 @@
-// What a vertex gathers, and whether that counts:
-// where something stands on a surface there is no light to interpolate.
+// The light gathered at a vertex,
+//
+//   H(x) = D(x) + 1/N sum over N cosine-distributed rays of tau B(landing) + secondary emitters,      W/m^2
+//
+// (light/point_irradiance.h), and its clearance: where something stands on a surface there is no light to
+// interpolate. Clearance is tested by sixteen rays as long as 0.35 of an element.
 #pragma once
 
 #include "radiosity/light/row_cache.h"
@@ -7,19 +11,18 @@
 
 namespace meninas {
 
-/// What is over a point: nothing near, something within a fraction of an element,
-/// or something that stands on it and leaves no way for light.
+/// The space above a point: open, low (something within a fraction of an element), or enclosed by an object
+/// that stands on it and leaves no way for light.
 ///
-/// What little light there is under a low cover must not be interpolated out into the open.
-/// But where a space is low all around, as in the corner of a wedge or where elements are larger
-/// than the room, there is no open to spoil, and what arrives is what the surface shows:
-/// the points around tell.
-enum class Cover : std::uint8_t { open, low, shut };
+/// The little light under a low cover must not be interpolated into the open floor. If the space is low
+/// on all sides (tip of a wedge, elements larger than the room), there is no open floor and the value
+/// is kept. The neighbouring points decide.
+enum class Clearance : std::uint8_t { open, low, enclosed };
 
 struct VertexValue {
   ArrivingLight irradiance;
-  ArrivingLight indirect; ///< the part of it that does not come from the source
-  Cover cover = Cover::open;
+  ArrivingLight indirect; ///< the part of it that is not direct light
+  Clearance clearance = Clearance::open;
   ArrivingLight emission{}; ///< of that part, what rays have met of emitters
   std::uint32_t hits = 0;   ///< so many rays
 };
@@ -41,16 +44,16 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
                               const GatheringPoint& at, PointWorkspace& work,
                               VertexRays* kept = nullptr);
 
-/// The part that comes from the source alone.
-ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
+/// Direct light alone.
+ArrivingLight direct_light_at(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work);
 /// The same with all samples of a penumbra.
 ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
                                     std::uint32_t seed, PointWorkspace& work);
 
-/// Whether a wall stands on the surface along a line through this very point.
-/// Where nothing is covered the point still sees neither side of the wall, whose light
-/// is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
+/// True if a wall stands on a line through this point. An uncovered point on the line sees neither side
+/// of the wall, though its light is strongest there: the form factor to the wall is 1/2 beside the line
+/// and 0 on it.
 bool touches_wall(const LightScene& light, const Receiver& receiver);
 
 /// Whether more than half of what a point sees is blocked within a fraction of an element:
@@ -66,9 +69,9 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
 /// is blocked within a fraction of an element, as under a box that stands on a floor.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
 
-/// What is over a point to which no light comes from the source, as far as few rays tell:
-/// `shut` where nearly all that it sees is black, as inside something that stands on its surface.
-Cover clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
+/// The clearance of a point without direct light, as far as few rays tell: `enclosed` where nearly all that it
+/// sees is black, as inside an object that stands on its surface.
+Clearance clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
                         const Receiver& receiver, double element_size, std::uint32_t seed,
                         PointWorkspace& work);
 

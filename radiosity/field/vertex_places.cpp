@@ -98,7 +98,7 @@ Point3 nearest_in(const ElementMesh& mesh, ElementId element, const Point3& corn
   return nearest;
 }
 
-/// How far a region reaches along the way from a to b, as a share of it.
+/// The extent of a region along the way from a to b, as a share of it.
 static double reach_along(const RegionElement& region, const Point3& a, const Point3& b) {
   constexpr double aside = 1e-5;
   const Vec3 way = b - a;
@@ -146,7 +146,7 @@ static std::optional<Point3> before_contact(const ElementMesh& mesh,
         const double reach = is_own(beside) ? reach_along(*region, from, to) : 0.0;
         const double length = reach * glm::distance(from, to);
         const Point3 there = glm::mix(from, to, 2.0 / 3.0 * reach);
-        // Of ways as long, to rounding, the same one in whatever order elements come.
+        // If ways are equally long, to rounding, the choice does not depend on the order of elements.
         if (length > (1.0 + alike) * longest ||
             (length > (1.0 - alike) * longest && place && comes_before(there, *place, length))) {
           longest = length;

@@ -3,6 +3,8 @@
 //
 //   H(s, t) = (1 - t) ((1 - s) H_0 + s H_1) + t ((1 - s) H_3 + s H_2)      in quads
 //   H(s, t) = (1 - s - t) H_0 + s H_1 + t H_2                              in triangles
+//
+// H in W/m^2, places in metres.
 #pragma once
 
 #include "radiosity/light/direct_irradiance.h"

@@ -1,4 +1,4 @@
-// What is known of the vertices of a mesh while the irradiance field is found, and how they gather.
+// The samples at the vertices of a mesh while the irradiance field is found, and the means to gather them.
 //
 // Each vertex is one sample: irradiance, W/m^2, by ElementVertexId, with the state it is in.
 #pragma once
@@ -17,18 +17,18 @@
 
 namespace meninas {
 
-/// What a vertex has; `lit`: direct light alone;
-/// `low`: all light, under a low cover that goes on all around (vertex_light.h).
-enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, low, gathered };
+/// The state of a vertex; `smoothed`: it has the mean of its facets;
+/// `low_clearance`: all light, under a low cover that goes on all around (vertex_light.h).
+enum class VertexState : std::uint8_t { unknown, covered, smoothed, direct_only, low_clearance, gathered };
 
 inline bool has_value(VertexState state) {
-  return state == VertexState::averaged || state == VertexState::low ||
+  return state == VertexState::smoothed || state == VertexState::low_clearance ||
          state == VertexState::gathered;
 }
 
-/// How a vertex sees the images of emitters: each wholly or not at all, as few samples tell,
-/// or as many do, or one in part (penumbra_resampling.h).
-enum class Visibility : std::uint8_t { alike, confirmed, in_part };
+/// The visibility of the emitters' images from a vertex: each wholly or not at all, as few samples tell
+/// (`uniform`) or many (`confirmed`), or one in part (penumbra_resampling.h).
+enum class Visibility : std::uint8_t { uniform, confirmed, partial };
 
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
 struct VertexSamples {
@@ -51,7 +51,7 @@ inline void count_rays(const PointWorkspaces& workspaces, InterpolatedField& res
   }
 }
 
-/// How vertices gather.
+/// The settings by which vertices gather.
 struct VertexGathering {
   const FormFactorSettings& form_factors;
   const DirectSettings& direct;
@@ -66,7 +66,7 @@ struct RayShare {
   int part = 1, times = 1;
 };
 
-/// What vertices gather from.
+/// The light that vertices gather from.
 struct VertexSource {
   const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
   const PointGathering& gathering;
@@ -76,7 +76,7 @@ struct VertexSource {
   StagePart part = {}; ///< of the run: reported by the vertices that are done
 };
 
-/// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
+/// The seed of a vertex's samples. `level` tells apart vertices whose numbers are the same.
 inline std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex,
                                  std::uint32_t level) {
   return hash(vertex, source.gathering.form_factors.seed, 0x7e27 + level);

@@ -1,4 +1,4 @@
-// What users ask of a hierarchical mesh, and what they are told of it.
+// The accuracy that users ask of a hierarchical mesh, and the size of the mesh that they are told.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@ namespace meninas {
 
 namespace {
 
-/// How many of the corners have values, of four.
+/// The number of corners, of four, that have values.
 std::ptrdiff_t valid_among(const ElementCorners& corners, const GatheredVertices& gathered) {
   return std::ranges::count_if(
       corners, [&](ElementVertexId corner) { return gathered.valid[index(corner)] != 0; });

@@ -19,7 +19,7 @@
 
 namespace meninas {
 
-/// What has been gathered so far, by ElementVertexId.
+/// The light gathered so far, by ElementVertexId.
 struct GatheredVertices {
   std::span<const std::uint8_t> valid; ///< whether a vertex has a value of its own
   std::span<const glm::vec3> irradiance, indirect;

@@ -49,7 +49,7 @@ void append(const NodeCut& from, std::size_t receiver, NodeCut& to) {
   to.exposed.push_back(from.exposed[receiver]);
 }
 
-/// What is left of a cut, and what has taken the place of the rest, in the order of the tree.
+/// The receivers left of a cut, and those that have taken the place of the rest, in the order of the tree.
 NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<std::uint8_t>& gone,
                const NodeCut& fresh) {
   NodeCut cut;
@@ -79,11 +79,11 @@ NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<st
 /// of those that meet black backs, elements that are covered are found as far
 /// as they are several of the cells that the receiver is looked at in.
 std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& cut) {
-  constexpr std::uint32_t most_elements = 16;
+  constexpr std::uint32_t max_elements = 16;
   std::vector<std::uint8_t> marked;
   for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
     const TreeNode& node = tree.nodes[index(cut.receivers[r])];
-    const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > most_elements;
+    const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > max_elements;
     const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != wholly_covered;
     marked.push_back(!is_leaf(node) && partly ? 1 : 0);
   }
@@ -111,7 +111,7 @@ bool any(const std::vector<std::uint8_t>& marked) {
 
 } // namespace
 
-/// How many receivers a side begins with: the more, the larger a share of all surfaces it is.
+/// The number of receivers a side begins with: the more, the larger a share of all surfaces it is.
 static double first_on_side(double share) {
   constexpr double in_all = 1024.0, least = 4.0, most = 16.0;
   return std::clamp(in_all * share, least, most);

@@ -6,12 +6,12 @@
 // So rows are as many as the light asks for, however fine the elements are.
 // Rows are kept when the cut moves down: only nodes that are new to it are traced.
 //
-// What stands on a surface is found by the rows too (contact_mask.h): a node of which
-// a part is covered is divided until its parts are free or covered as a whole, or elements;
-// one that meets black backs, which may be those of something small, until it has few elements.
+// The rays of a row also find objects standing on the node (contact_mask.h). A partly covered node is
+// divided until each part is free, fully covered or an element. A node whose rays meet black backs is
+// divided until it has few elements, because the object may be small.
 #pragma once
 
-#include "radiosity/transport/element_hierarchy.h"
+#include "radiosity/transport/substructuring.h"
 
 namespace meninas {
 
@@ -42,7 +42,7 @@ std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
 /// one for each 1/1024 of all there is. Where something stands across one, its parts.
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
 
-/// Those, and smaller ones where something stands on a side.
+/// The cut at the first receivers, and at smaller ones where something stands on a side.
 NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
                   const Progress& progress);
 
@@ -51,11 +51,11 @@ NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
                    const std::vector<std::uint8_t>& marked, const FormFactorSettings& settings,
                    const Progress& progress);
 
-/// The means over the elements below every receiver. `areas` and values by ElementId.
+/// The means over the elements below every receiver, X_c = sum A_j X_j / sum A_j. `areas` (m^2) and values by ElementId.
 std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,
                              const std::vector<double>& areas, const std::vector<Rgb>& values);
 
-/// What the receivers gather from one another: F_cd is the sum of F_cj over the elements j below d.
+/// The transport between receivers: F_cd is the sum of F_cj over the elements j below d.
 Transport between_receivers(const NodeCut& cut);
 
 } // namespace meninas

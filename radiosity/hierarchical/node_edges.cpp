@@ -9,7 +9,7 @@ namespace {
 
 constexpr Vec2 corner_st[4] = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
 
-/// Which edge a point of a node is on, within, if any.
+/// The edge of a node that has the point within it, if any.
 std::optional<std::size_t> edge_at(Vec2 st) {
   constexpr double margin = 1e-6;
   const auto inside = [](double x) { return x > margin && x < 1.0 - margin; };
@@ -50,7 +50,7 @@ std::optional<MidpointStencil> cross_of(const ElementMesh& mesh, const NodeTree&
   return is_whole ? std::optional(cross) : std::nullopt;
 }
 
-/// What is known of a middle of an edge from one of the nodes beside it.
+/// The data about the middle of an edge from one of the nodes beside it.
 struct EdgeSide {
   std::uint32_t cross = 0;
   std::uint32_t edge = 0;
@@ -71,7 +71,7 @@ public:
             std::span<const glm::vec3> values)
       : crosses_(crosses), valid_(valid), values_(values) {}
 
-  /// How much is in the middle of an edge beyond the linear mean of its ends, if it is known.
+  /// The surplus in the middle of an edge over the linear mean of its ends, if it is known.
   glm::vec3 beyond_line(const EdgeSide& side, glm::vec3 middle) const {
     return middle - between_ends(side);
   }

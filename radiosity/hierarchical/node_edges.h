@@ -1,4 +1,4 @@
-// Light in the middle of edges between nodes, where it is curved.
+// Irradiance, W/m^2, in the middle of edges between nodes, where it is curved.
 //
 // A node of four parts gathers at its corners and in its middle,
 // and its parts need values in the middle m of its edges, too.
@@ -23,7 +23,7 @@
 // and those beside middles or corners without light of their own.
 #pragma once
 
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {
@@ -39,12 +39,12 @@ struct MidpointStencil {
   Vec2 extent; ///< of the node in the patch
 };
 
-/// Of those nodes that have four parts and are not triangles, in their order.
+/// The stencils of the nodes that have four parts and are not triangles, in their order.
 std::vector<MidpointStencil> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
                                   std::span<const TreeNodeId> nodes);
 
-/// By ElementVertexId, in the middle of edges that have not gathered: what `values` have there more
-/// than the linear mean of the edge's ends; 0 elsewhere. `gathered`: 1 where values are known.
+/// By ElementVertexId, in the middle of edges that have not gathered: I_m - L_m, W/m^2; 0 elsewhere.
+/// `gathered`: 1 where values are known.
 std::vector<glm::vec3> edge_bends(std::span<const MidpointStencil> crosses,
                                   std::span<const std::uint8_t> gathered,
                                   std::span<const glm::vec3> values);

@@ -17,11 +17,11 @@ namespace meninas {
 
 namespace {
 
-constexpr RayShare first_share{few_rays, 1};
-constexpr double first_spared = 1.0, small_spared = 0.1; // of bright clusters there
+constexpr RayShare first_share{ray_reduction, 1};
+constexpr double first_spared = 1.0, small_spared = 0.1; // of secondary emitters there
 
-/// What elements receive, by their corners: all of it where they share points for light from the
-/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
+/// The irradiance of elements, from their corners: all of it where they share points for direct light
+/// (node_light.h), or else indirect light. Corners do not resolve a spot of a few elements.
 std::vector<Rgb> received_at_corners(const ElementLight& elements, const HierarchicalSolution& receivers,
                                      const VertexSamples& found,
                                      const std::vector<glm::vec3>& irradiance,
@@ -31,7 +31,7 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Hierarc
   const std::vector<Rgb> rest = curved_means(found.mesh, edges, indirect);
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
-      received[e] = elements.from_source[e] + rest[e];
+      received[e] = elements.direct[e] + rest[e];
   return received;
 }
 
@@ -51,7 +51,7 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
   }
 }
 
-/// What lamps have in the light that elements send on, as their corners tell.
+/// The shares of lamps in the light that elements reflect, from their corners.
 LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSolution& receivers,
                               const VertexSamples& found, const std::vector<Rgb>& reflected,
                               std::span<const std::uint8_t> gathered) {
@@ -63,13 +63,13 @@ LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSo
       all[v] += rest[v];
     const ElementLight of_lamp{.reflected = {},
                                .irradiance = {},
-                               .from_source = light_of_lamp(elements.from_source_by_lamp, l)};
+                               .direct = light_of_lamp(elements.direct_by_lamp, l)};
     const std::vector<Rgb> received = received_at_corners(
         of_lamp, receivers, found, filled(found, std::move(all)), filled(found, rest));
     set_light_of_lamp(by_lamp, l,
                       scattered(found.mesh.reflectance, elements.translucent, received));
   }
-  // Of what corners know nothing the elements' own light tells.
+  // The elements' own light stands in where corners have none.
   const auto is_zero = [](double light) { return light == 0.0; };
   for (std::size_t e = 0; e < by_lamp.rows; ++e)
     if (gathered[e] == 0 || std::ranges::all_of(by_lamp[e], is_zero))
@@ -117,7 +117,7 @@ std::vector<TreeNodeId> met_by_rays(const HierarchicalSolution& receivers,
   return met;
 }
 
-/// Vertices that are lit and that none of these elements has take the mean of the rest
+/// Vertices that are lit and that none of these elements has take the mean of indirect light
 /// that the elements around them have been solved to receive.
 void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gathered,
                  const VertexIrradiance& lit, std::span<const VertexState> states,
@@ -126,7 +126,7 @@ void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gat
   const VertexElements around = elements_around(found.mesh);
   for (std::uint32_t v = 0; v < states.size(); ++v) {
     const auto here = meninas::around(around, v);
-    if (states[v] != VertexState::lit ||
+    if (states[v] != VertexState::direct_only ||
         std::ranges::any_of(here, [&](ElementId e) { return gathered[index(e)] != 0; }))
       continue;
     double area = 0.0;
@@ -142,7 +142,7 @@ void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gat
     const auto at = [](const std::vector<Rgb>& values) {
       return [&values](std::uint32_t e) { return values[e]; };
     };
-    field.indirect[v] = rest(at(elements.irradiance), at(elements.from_source));
+    field.indirect[v] = rest(at(elements.irradiance), at(elements.direct));
     field.irradiance[v] = lit.irradiance[v] + field.indirect[v];
     field.indirect_mirrored[v] = glm::vec3(0.0F);
     field.mirrored[v] = lit.mirrored[v];
@@ -154,7 +154,7 @@ void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gat
       };
       field.by_lamp[l].direct[v] = lit.by_lamp[l].direct[v];
       field.by_lamp[l].indirect[v] =
-          rest(of_lamp(elements.irradiance_by_lamp), of_lamp(elements.from_source_by_lamp));
+          rest(of_lamp(elements.irradiance_by_lamp), of_lamp(elements.direct_by_lamp));
     }
     found.states[v] = VertexState::gathered;
   }
@@ -167,7 +167,7 @@ FirstField first_field(const VertexSource& few, const HierarchicalSolution& rece
   std::vector<VertexState> states = found.states;
   const std::vector<TreeNodeId> nodes = met_by_rays(receivers, few.gathering.light);
   const auto gathered = elements_of(receivers.tree, nodes, element_count(found.mesh));
-  share_out(gather_at_nodes({few, few}, receivers, nodes, {}, few_rays * receivers.bend, found),
+  share_out(gather_at_nodes({few, few}, receivers, nodes, {}, ray_reduction * receivers.bend, found),
             found);
   take_solved(elements, gathered, lit, states, found);
   std::vector<Rgb> received =
@@ -235,7 +235,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
   const SentLight& reflected = first.sent;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering by_all = gathering_from(light, reflected, how, {}, 0.0, first_share),
-                       seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
+                       seen_by_small = gathering_from(light, reflected, how, {ray_reduction, times},
                                                       small_spared, first_share);
   const std::unique_ptr<const PointGathering> seen_by_large(
       times > 1
@@ -269,7 +269,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
                                  HierarchicalSolution& receivers, const VertexGathering& how) {
   PointWorkspaces workspaces;
   const VertexElements facets =
-      elements.from_source.empty() ? VertexElements{} : facets_around(light);
+      elements.direct.empty() ? VertexElements{} : facets_around(light);
   VertexSamples found = std::move(receivers.vertices);
   if (!facets.elements.empty())
     average_facets(light, elements, facets,

@@ -10,12 +10,12 @@ namespace meninas {
 
 namespace {
 
-/// The rest at vertices, `wanted` the areas that they stand for.
+/// Indirect light at vertices, `wanted` the areas that they stand for.
 /// Noise counts with the area: in an eighth of a receiver a quarter of the rays adds
 /// no more to the squared error than all do in a receiver (gather_noise.h).
 void gather_at_wanted(const NodeSource& source, const std::vector<double>& wanted, double receiver,
                       VertexSamples& found) {
-  const double small = std::pow(few_rays, -2.0 * noise_order);
+  const double small = std::pow(ray_reduction, -2.0 * noise_order);
   std::vector<std::uint8_t> large(wanted.size(), 0), rest(wanted.size(), 0);
   for (std::size_t v = 0; v < wanted.size(); ++v) {
     large[v] = wanted[v] > small * receiver ? 1 : 0;
@@ -73,7 +73,7 @@ NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSo
 
 namespace {
 
-/// What a vertex takes from those that its shares name, as far as these have values.
+/// A vertex takes the weighted mean of the vertices that its shares name, as far as these have values.
 void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSamples& found) {
   VertexIrradiance& field = found.field;
   glm::vec3 total(0.0F), mirrored(0.0F);
@@ -133,7 +133,7 @@ void drop_indicator_samples(const InterpolationWeights& shares, VertexSamples& f
       // Sums of floats less one of their terms may be a rounding below the others.
       field.irradiance[v] = glm::max(field.irradiance[v] - field.indirect[v], glm::vec3(0.0F));
       field.mirrored[v] = glm::max(field.mirrored[v] - field.indirect_mirrored[v], glm::vec3(0.0F));
-      found.states[v] = VertexState::lit;
+      found.states[v] = VertexState::direct_only;
     }
 }
 
@@ -144,7 +144,7 @@ void share_out(const NodeInterpolation& by, VertexSamples& found) {
   const std::vector<std::uint8_t> valid = with_values(found);
   const auto take = [&](bool between) {
     for (std::size_t v = 0; v < found.states.size(); ++v)
-      if (found.states[v] == VertexState::lit && (by.shares.between[v] != 0) == between)
+      if (found.states[v] == VertexState::direct_only && (by.shares.between[v] != 0) == between)
         take_shares(by.shares, v, found);
   };
   take(true);

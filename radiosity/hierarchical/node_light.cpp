@@ -39,7 +39,7 @@ std::vector<ElementId> by_themselves(const LightScene& light, std::span<const Co
   const ElementMesh& mesh = light.mesh;
   const auto tells = [&](ElementVertexId v) {
     const VertexState state = vertices.states[index(v)];
-    return state != VertexState::covered && state != VertexState::averaged;
+    return state != VertexState::covered && state != VertexState::smoothed;
   };
   const auto is_at_spot = [&](ElementId element) {
     return !narrow_spots(mesh, light.worlds, light.punctual, element).empty();
@@ -54,13 +54,13 @@ std::vector<ElementId> by_themselves(const LightScene& light, std::span<const Co
 }
 
 /// Nodes of at most so many elements, each as large as it can be.
-std::vector<TreeNodeId> groups_of(const NodeTree& tree, std::uint32_t most_elements) {
+std::vector<TreeNodeId> groups_of(const NodeTree& tree, std::uint32_t max_elements) {
   std::vector<TreeNodeId> nodes;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const TreeNode& node = tree.nodes[n];
     const bool above_is_large = node.parent == none<TreeNodeId> ||
-                                tree.nodes[index(node.parent)].leaf_count > most_elements;
-    if (above_is_large && (node.leaf_count <= most_elements || is_leaf(node)))
+                                tree.nodes[index(node.parent)].leaf_count > max_elements;
+    if (above_is_large && (node.leaf_count <= max_elements || is_leaf(node)))
       nodes.push_back(static_cast<TreeNodeId>(n));
   }
   return nodes;

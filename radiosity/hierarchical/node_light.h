@@ -9,13 +9,13 @@
 #pragma once
 
 #include "radiosity/light/element_light.h"
-#include "radiosity/field/vertex_gathering.h"
-#include "radiosity/transport/element_hierarchy.h"
+#include "radiosity/field/final_gathering.h"
+#include "radiosity/transport/substructuring.h"
 
 namespace meninas {
 
 /// Vertices with direct light alone, also that of punctual lights by itself,
-/// and the rays that took. What takes the means of facets has no value yet.
+/// and the rays that took. Vertices that take the means of facets have no value yet.
 struct LitVertices {
   VertexSamples found;
   std::uint64_t rays = 0, shadow_rays = 0;

@@ -112,18 +112,18 @@ std::vector<Rgb> pulled(const NodeTree& tree, const NodeCut& cut, const std::vec
   return sum;
 }
 
-/// Receivers over which what their rays gather varies by more than it may: H, G and the sky.
-/// What they are off by is reflected on and on: the more often, the less it may be.
+/// Receivers over which the light gathered by their rays (H, G and the sky) varies by more than it may.
+/// Their error is reflected on and on: the more often, the smaller the bound.
 std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
                                     const FirstLight& first, const std::vector<double>& areas,
                                     const std::vector<Rgb>& irradiance, double link_error) {
   const std::vector<Rgb> reflectance = means_below(
                              tree, cut, areas, total_shares(first.reflectance, first.translucent)),
                          at_first = means_below(tree, cut, areas, first.irradiance),
-                         from_source = means_below(tree, cut, areas, first.from_source);
+                         direct = means_below(tree, cut, areas, first.direct);
   std::vector<Rgb> gathered = irradiance, radiosity;
   for (std::size_t c = 0; c < irradiance.size(); ++c) {
-    gathered[c] += at_first[c] - from_source[c];
+    gathered[c] += at_first[c] - direct[c];
     radiosity.push_back(reflectance[c] * (at_first[c] + irradiance[c]));
   }
   const std::vector<Rgb> mean = by_element(cut, radiosity);
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
   constexpr double often = 4.0; // more than in most rooms
   const double bound = link_error * std::min(1.0, often * at_first_alone / std::max(light, 1e-300));
 
-  // How far the parts of a node are from it, at the most:
+  // The largest difference between a node and its parts:
   // in the middle of a slope a part is as bright as the whole.
   const std::vector<Rgb> nodes = pulled(tree, cut, areas, gathered);
   std::vector<double> apart(tree.nodes.size(), 0.0);
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
   return marked;
 }
 
-/// What receivers gather from.
+/// The problem that receivers solve.
 struct NodeProblem {
   const LightScene& light;
   const NodeTree& tree;
@@ -184,7 +184,7 @@ void light_changed(const NodeProblem& problem, const std::vector<ContactMask>& b
   recompute_direct(problem.light, changed, lit.covered, problem.direct, problem.progress, lit.direct);
 }
 
-void light_up(const NodeProblem& problem, LitCut& lit) {
+void recompute_direct_of_cut(const NodeProblem& problem, LitCut& lit) {
   const LightScene& light = problem.light;
   // Smaller receivers may find that something stands on elements: then less of them is lit.
   if (std::vector<ContactMask> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
@@ -238,7 +238,7 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
     const std::uint64_t before = lit.cut.rays_traced;
     lit.cut = first_cut(problem.light, problem.tree, of_rows, problem.progress);
     lit.cut.rays_traced += before;
-    light_up(problem, lit);
+    recompute_direct_of_cut(problem, lit);
   };
   LitCut lit;
   if (problem.vertices == nullptr) {
@@ -319,7 +319,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
                             std::optional<LitVertices> vertices, const Progress& progress) {
   NodeSolution result;
   Stopwatch watch;
-  NodeTree tree = make_node_tree(light.mesh, light.surfaces);
+  NodeTree tree = make_node_tree(light);
   const NodeProblem problem{light, tree, settings.direct, vertices ? &vertices->found : nullptr,
                             progress};
   FormFactorSettings of_rows;
@@ -334,7 +334,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
     if (std::ranges::find(marked, 1) == marked.end())
       break;
     lit.cut = moved_down(light, tree, std::move(lit.cut), marked, of_rows, progress);
-    light_up(problem, lit);
+    recompute_direct_of_cut(problem, lit);
   }
 
   received = solve_receivers(tree, lit.cut, lit.first, lit.areas, settings.solver);

@@ -1,36 +1,35 @@
 // Hierarchical radiosity (`--mesh hierarchical`):
-// light is received by nodes as large as it allows, and sent on by the elements below them.
+// nodes as large as the error allows receive light, and the elements below them send it on.
 //
-// What elements have not reflected yet, S = rho (D + G), is found as for every solver
-// (first_light.h), element by element, as it has the edges (or as below, where vertices have them).
-// What they send one another is smooth. So with c the receiver of element j (node_cut.h),
+// The first reflection, S = rho (D + G), has the sharp edges. It is found as for every solver (first_light.h),
+// element by element (or as below, where vertices have the edges).
+// The light that elements send one another is smooth. So with c the receiver of element j (node_cut.h),
 //
 //   B_j = S_j + rho_j H_c,   H_c = sum_j F_cj B_j = s_c + sum_d F_cd rho_d H_d,   s_c = sum_j F_cj S_j,
 //
 // d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean:
-// (of translucent surfaces, tau times what their other side receives comes to B_j: transport/translucency.h),
-// first light is gathered from the elements themselves, and what follows from receivers,
+// (translucent surfaces add tau times the irradiance of their other side to B_j: transport/translucency.h),
+// first light is gathered from the elements themselves, and later bounces from receivers,
 // over links between nodes (F_cd, c, d). The system of receivers is solved by any solver (solve.h).
 // Receivers are then divided where
 //
-//   rho max_d |H_d - H_parent| > X (B + B_mean),   d over the parts of the receiver's parent, H with G and what comes from the sky,
+//   rho max_d |H_d - H_parent| > X (B + B_mean),
 //
-// and the larger system is solved, until none is. The difference between children and parent halves
-// per level, hence the factor 2 in the bound:
-// links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
+// d over the parts of the receiver's parent, H with G and the light of the sky. The larger system is solved, until
+// no receiver is divided. The difference between children and parent halves per level, hence the factor 2 in the
+// bound: links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
 // The factors of links come from the rays of the receivers' rows and not from pairs of nodes:
-// rays follow every mirror to any depth and know what stands between,
-// there is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays,
-// as in the paper, were slower and less accurate (docs/notes/hierarchical.md).
+// rays follow every mirror to any depth and find occluders, there is no quadratic first step, and rows close.
+// Pairs with a closed form and shadow rays, as in the paper, were slower and less accurate
+// (docs/notes/hierarchical.md).
 //
-// X is the link error where elements are seen as they receive,
-// less where all light is more than four times what is reflected first: in proportion to that,
-// as what receivers are off by is passed on so many times.
-// Where vertices gather what is seen (node_field.h), elements only light others,
-// on average over many, and what is seen of them is as vertices have it (node_field.h):
-// X is twenty link errors, direct light is that of their corners (node_light.h),
-// and of more than 128 receivers the rows share the rays of so many,
-// or of up to 1,024 where light is uneven; where it is very uneven they are found twice.
+//   X = link_error min(1, 4 P_1 / P),   P_1 the power of the first reflection, P that of all reflected light.
+//
+// A receiver's error is reflected about P / P_1 times, so bright closed rooms need a smaller X.
+// If vertices gather the visible light (node_field.h), elements only light others and may be coarser:
+// twenty link errors take the place of one, and D is the mean of the corners (node_light.h).
+// More than 128 rows share the rays of 128 full rows, or of up to 1,024 where first light is uneven;
+// above an unevenness of 8 the rows are traced again with more rays.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
 // depends on the light and on X, and on elements only while these are larger than X asks for.

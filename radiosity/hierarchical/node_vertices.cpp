@@ -13,7 +13,7 @@ constexpr Corners half_square{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(0, 1)};
 
 const Corners& corners_of(bool triangle) { return triangle ? half_square : square; }
 
-/// Of an element's corners the one nearest to a point of it.
+/// The corner of an element that is nearest to a point of it.
 std::size_t nearest_corner(const ElementMesh& mesh, const ElementPoint& at) {
   const bool triangle = mesh.sides[index(mesh.side_of_element[index(at.element)])].triangle;
   const Corners& own = corners_of(triangle);
@@ -164,7 +164,7 @@ InterpolationWeights vertex_shares(const ElementMesh& mesh, const NodeTree& tree
         shares.weight[vertex] = weights_at(node.triangle, (uv - node.uv) / node.extent);
       }
   }
-  // Of the corners of cells, those that do not gather lie between corners of the node, which do.
+  // Corners of cells that do not gather lie between corners of the node, which do.
   for (const Cell& cell : cells) {
     const TreeNode &part = tree.nodes[index(cell.node)], &node = tree.nodes[index(cell.of)];
     const ElementCorners corners = corners_of(mesh, node), of_part = corners_of(mesh, part);

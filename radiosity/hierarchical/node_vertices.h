@@ -1,17 +1,17 @@
-// Which vertices gather indirect light,
-// and what those between take from them, where nodes stand for many elements.
+// The vertices that gather indirect light where nodes stand for many elements, and the weights by which the
+// vertices between interpolate.
 //
 // The corners of a node gather, and a vertex in its middle, which tells whether light is straight
-// between them (node_bends.h). Its parts share that vertex: what else they have for corners,
-// if it does not gather as a corner of another node, lies between corners of this one.
-// A node of two parts has two such vertices, on its long edges. Of light that bends from one to
-// the other they tell nothing: a third, near its middle, is asked, and keeps no value of its own.
-// A vertex within a part takes the bilinear mean of the part's corners, linear in triangles.
+// between them (node_bends.h). The parts share that vertex. Their other corners are interpolated between
+// corners of this node, unless they gather as corners of another.
+// A node of two parts has two such vertices, on its long edges. They miss curvature between them.
+// A third sample near the middle serves as indicator only; its value is not stored.
+// A vertex within a part takes the bilinear mean of the part's corners, H = sum w_k H_k, linear in triangles.
 // One on the border of a large and a small part takes from the small one, or is a corner of it:
 // every vertex has one value, so that there is no crack.
 #pragma once
 
-#include "radiosity/transport/element_hierarchy.h"
+#include "radiosity/transport/substructuring.h"
 
 namespace meninas {
 
@@ -40,8 +40,8 @@ double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node
 /// The corners of a node; a triangle repeats its third.
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node);
 
-/// Those corners of a node's parts that are nearest to its middle: one, or two where it has
-/// two parts, and then a vertex near the middle, if there is any. None of an element.
+/// The probes of a node: the corners of its parts that are nearest to its middle, one, or two where it has
+/// two parts, and then a vertex near the middle, if there is any. An element has none.
 std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
                                  const TreeNode& node);
 
@@ -50,7 +50,7 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
 std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
                                     std::span<const TreeNodeId> nodes);
 
-/// Of a cut through the tree: no node is above another.
+/// The weights for a cut through the tree: no node is above another.
 InterpolationWeights vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
                            std::span<const TreeNodeId> nodes);
 

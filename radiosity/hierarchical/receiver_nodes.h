@@ -1,9 +1,9 @@
-// What the solution by nodes leaves to the field that is gathered from it.
+// The result of the hierarchical solution from which the field is gathered.
 #pragma once
 
 #include "radiosity/transport/contact_mask.h"
-#include "radiosity/field/vertex_gathering.h"
-#include "radiosity/transport/element_hierarchy.h"
+#include "radiosity/field/final_gathering.h"
+#include "radiosity/transport/substructuring.h"
 
 namespace meninas {
 

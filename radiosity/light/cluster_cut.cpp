@@ -1,6 +1,6 @@
 #include "radiosity/light/cluster_cut.h"
 
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The light of bright clusters at a point, those far away together (Barnes and Hut 1986;
+// The light of secondary emitters at a point, those far away together (Barnes and Hut 1986;
 // lightcuts: Walter et al. 2005).
 //
 // A node of the cluster tree that is small for its distance,
@@ -11,8 +11,8 @@
 // A node that is all outside brings nothing.
 // Others are opened down to clusters, which are computed in closed form (direct_irradiance.h).
 //
-// Error before shadows. Of k(y) = cos cos' / |y - x|^2 in its Taylor series around c the term
-// of first order vanishes, for c is the mean. Along the clusters' plane no second derivative of k
+// Error before shadows. The first-order term of the Taylor series of k(y) = cos cos' / |y - x|^2 around c
+// vanishes, because c is the mean. Along the clusters' plane no second derivative of k
 // is larger than 4.43 / |y - x|^4 (its maximum over all directions to x and normals there), thus
 //
 //   |H - node| <= 2.22 / pi  sum(B A) s^2 / (d - r)^4,     s^2 the mean square of |y - c|, weighted by what is sent; s <= 2 r
@@ -60,7 +60,7 @@ struct ClusterWorkspace {
 void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver& receiver,
                   double theta, ClusterWorkspace& work, std::vector<VirtualLight>& lights);
 
-/// What bright clusters light points with, the same for all points.
+/// The secondary emitters and their tree, the same for all points.
 struct ClusterLight {
   const Lighting& light; ///< has the clusters for emitters
   const ClusterTree& tree;

@@ -168,8 +168,7 @@ ClusterTree make_cluster_tree(std::span<const Emitter> clusters) {
 }
 
 ClusterPoint point_on(const ClusterTree& tree, const ClusterNode& node, Vec2 sample) {
-  // Of the sums along the order the sample falls between two;
-  // what is left of it lies evenly between them.
+  // The sample falls between two of the sums along the order; its remainder lies evenly between them.
   const double* const begin = tree.sent.data() + node.first_triangle;
   const double at = glm::mix(begin[0], begin[node.triangles], sample.x);
   const double* const after = std::upper_bound(begin + 1, begin + node.triangles, at);

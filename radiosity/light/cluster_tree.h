@@ -1,6 +1,11 @@
-// A tree over bright clusters, plane by plane:
+// A tree over secondary emitters, plane by plane:
 // each node stands for some clusters of one plane that face one way, below one coat or none.
 //
+// With A_c, B_c, x_c the area, radiosity and middle of cluster c, and b the brightest channel, a node has
+//
+//   power P = sum A_c B_c (W),   middle x = sum A_c b_c x_c / sum A_c b_c,   p(y) = b(y) / sum A_c b_c (1/m^2)
+//
+// with p the density of point_on(). A node is split at the median of its longer side.
 // Its splits follow the clusters' own plane, not the axes of space:
 // the tree is the same wherever the scene lies and however large it is.
 #pragma once

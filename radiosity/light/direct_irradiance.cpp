@@ -3,7 +3,7 @@
 #include "radiosity/light/light_samples.h"
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/portal_light.h"
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -101,13 +101,13 @@ Rgb visible_fraction(const Lighting& light, const Emitter& emitter, const Visibl
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
-/// What an image sends, as it is seen.
+/// The radiosity of an image as it is seen, tau E.
 Rgb source_of(const Lighting& light, const VirtualLight& image) {
   return light.worlds.worlds[index(image.world)].throughput *
          light.emitters[image.emitter].radiosity;
 }
 
-/// What every image would bring without blockers; those that bring nothing are left out.
+/// The irradiance from every image without blockers; images that bring nothing are left out.
 void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorkspace& work) {
   work.form_factors.clear();
   work.brought.clear();
@@ -135,7 +135,7 @@ bool stand_for_others(const DirectWorkspace& work) {
                              [](const VirtualLight& image) { return image.stands_for_others(); });
 }
 
-/// How much is seen of each of the dim images, by its one sample:
+/// The visibility of each of the dim images, by its one sample:
 /// sixteen rays together that have as many legs.
 void sample_dim_images(const Lighting& light, const Receiver& receiver,
                        std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
@@ -259,8 +259,8 @@ static ArrivingLight mean_of_choices(const ArrivingLight& first, const ArrivedBy
   return mean;
 }
 
-/// What the images of emitters bring, or a choice of them. Where many stand for a lamp, and some
-/// are hidden and some are not, others are chosen besides, with those before as many as a penumbra takes samples.
+/// The irradiance from the images of emitters, or from a choice of them. If many images stand for a lamp, and some
+/// are hidden and some are not, more are chosen, up to the number of samples that a penumbra takes.
 static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& receiver,
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {

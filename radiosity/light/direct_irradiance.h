@@ -1,5 +1,5 @@
 // Direct irradiance:
-// the light of emitters and of their images in the mirror worlds, computed from the source.
+// the light of emitters and of their images in the mirror worlds, by their form factors.
 //
 //   D(x) = sum_w tau_w sum_e E_e F(x, T_w e clipped) V(x, w, e)
 //
@@ -17,14 +17,14 @@
 
 namespace meninas {
 
-/// What a point y of an image with that normal adds to the form factor, per area and times pi:
+/// The kernel of the form factor at a point y of an image with that normal, per area and times pi, 1/m^2:
 /// both cosines over the square of the distance.
 double form_factor_share(const Receiver& receiver, const Direction& normal, const Point3& y);
 inline double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y) {
   return form_factor_share(receiver, image.normal, y);
 }
 
-/// What the images in `workspace.lights` bring.
+/// The irradiance from the images in `workspace.lights`, W/m^2.
 ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
@@ -33,7 +33,7 @@ ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
 
-/// What the images of emitters would bring to the point last asked for if nothing blocked them.
+/// The irradiance, W/m^2, from the images of emitters at the point last asked for if nothing blocked them.
 Rgb unblocked_irradiance(const Lighting& light, const DirectWorkspace& workspace);
 
 } // namespace meninas

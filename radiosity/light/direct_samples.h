@@ -3,18 +3,18 @@
 
 #include "mirror/light_choice.h"
 #include "mirror/punctual_images.h"
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "radiosity/light/glass_light.h"
 
 namespace meninas {
 
-/// Which images take all samples of a penumbra at a point:
-/// those of which the first disagree, all where those of any do, or all everywhere.
+/// The images that take all samples of a penumbra at a point: images whose first samples disagree (`own`), all
+/// images if the first samples of any disagree (`together`), or all images everywhere.
 enum class PenumbraSamples : std::uint8_t { own, together, everywhere };
 
 struct DirectSettings {
   int points = 16; ///< receiving points per element to begin with
-  int most_points =
+  int max_points =
       256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int shadow_rays =
       16; ///< per emitter image and point where it matters most; images that bring less get fewer

@@ -1,5 +1,5 @@
-// What elements see of the emitters' images (mirror/region_images.h),
-// kept for those that many points are asked of.
+// The emitters' images that all points of an element see alike (mirror/region_images.h), cached for
+// elements at which many points are asked for.
 #pragma once
 
 #include "mirror/region_images.h"
@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// Of the elements asked for last; one for each thread, and for one scene.
+/// The cached images of the elements asked for last; one cache for each thread, and for one scene.
 struct ElementImages {
   struct Slot {
     ElementId element = none<ElementId>;
@@ -19,8 +19,8 @@ struct ElementImages {
   std::vector<Slot> slots; ///< by element, as many as there are places
 };
 
-/// What all points of an element see alike.
-/// Finding it takes as long as the images of some points do: null until so many have asked.
+/// The emitter images that all points of an element see alike. Computing them costs as much as several
+/// points do, so the first fifteen calls for an element return null.
 const RegionImages* images_of_element(const Lighting& light, ElementId element,
                                       ElementImages& known);
 

@@ -1,6 +1,6 @@
 #include "radiosity/light/element_light.h"
 
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "radiosity/light/spot_parts.h"
 #include "radiosity/scene/small_elements.h"
 #include "scenes/sampling.h"
@@ -29,7 +29,7 @@ struct Receiving {
   }
 };
 
-/// What all lights send.
+/// The light of all lights.
 ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
   std::uint32_t next = 0;
   const auto next_point = [&]() -> NumberedPoint {
@@ -39,14 +39,14 @@ ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
   };
   return mean_direct_irradiance(r.light, next_point,
                            {.points = r.settings.points,
-                            .most_points = r.settings.most_points,
+                            .max_points = r.settings.max_points,
                             .images = r.settings.images_in_element,
                             .rays = r.settings.rays_in_element,
                             .solid_rays = r.settings.solid_rays_in_element},
                            r.seed, work);
 }
 
-/// What one punctual light sends to a point in the worlds that are wanted.
+/// The irradiance from one punctual light at a point in the worlds that are wanted.
 Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& receiver,
                   const std::function<bool(WorldId)>& wanted, DirectWorkspace& work) {
   constexpr double beyond = 8.0; // in the frame the scene is 2 wide
@@ -124,12 +124,12 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   if (covered == wholly_covered)
     return {};
   DirectSettings settings = asked;
-  if (needs_few_samples(light.scene, element)) {
-    for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
-      *samples = few_of(*samples);
-    // What a face of a lamp reflects is little beside what it emits: the mean of many faces has to settle, not each.
+  if (has_reduced_samples(light.scene, element)) {
+    for (int* samples : {&settings.points, &settings.max_points, &settings.images_in_element})
+      *samples = reduced_count(*samples);
+    // A face of a lamp reflects little beside its emission: the mean of many faces has to settle, not each.
     if (light.scene.mesh.emission[index(element)] != Rgb(0.0))
-      settings.most_points = settings.points;
+      settings.max_points = settings.points;
   }
   const Receiving r{light,
                     element,

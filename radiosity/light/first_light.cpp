@@ -12,8 +12,8 @@ void add(std::vector<Rgb>& sum, const std::vector<Rgb>& part) {
     sum[i] += part[i];
 }
 
-/// By the rays of the elements. Empty without a sky. What was cut of them is taken to fare like
-/// the rest.
+/// The irradiance from the sky, by the rays of the elements. Empty without a sky. Light of rays that were cut is
+/// taken to be distributed like the rest.
 struct SkyIrradiance {
   std::vector<Rgb> gathered, by_portals;
 };
@@ -82,12 +82,12 @@ FirstLight first_light(const LightScene& light, FoundByRays rays, const DirectIr
   SkyIrradiance sky = sky_irradiance(light, rays.closure);
   first.by_lamp =
       first_by_lamp(light, std::move(rays.gathered_by_lamp), sky.gathered, direct);
-  first.from_source_by_lamp = direct.by_lamp;
+  first.direct_by_lamp = direct.by_lamp;
   first.entering = std::move(sky.gathered);
   first.irradiance = std::move(rays.gathered);
   add(first.irradiance, first.entering);
   if (method != FormFactorMethod::analytic)
-    first.from_source = direct.irradiance;
+    first.direct = direct.irradiance;
   first.shadow_rays = direct.shadow_rays;
   add(first.irradiance, direct.irradiance);
   add(first.entering, direct.entering);

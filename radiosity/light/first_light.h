@@ -15,14 +15,14 @@ namespace meninas {
 
 struct FirstLight {
   std::vector<Rgb> irradiance, source, reflectance; ///< D + G, S = rho (D + G), rho by ElementId
-  std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
+  std::vector<Rgb> direct;                     ///< D; empty where it is not set apart
   std::vector<Rgb> entering; ///< the part of D + G that no surface emits; empty where there is none
   TranslucentLinks translucent; ///< by ElementId
-  LightByLamp by_lamp = {}, from_source_by_lamp = {}; ///< D + G and D; empty where light is not told apart
+  LightByLamp by_lamp = {}, direct_by_lamp = {}; ///< D + G and D; empty where light is not told apart
   std::uint64_t shadow_rays = 0;
 };
 
-/// What the elements' own rays have found, by ElementId.
+/// The light found by the elements' own rays, by ElementId.
 struct FoundByRays {
   std::vector<Rgb> gathered; ///< G, W/m^2
   const std::vector<RowClosure>& closure;

@@ -1,4 +1,4 @@
-// How gathered light gets less noisy with more rays.
+// The noise of gathered light as a function of the number of rays.
 // The error of N rays spread evenly over the hemisphere (hemisphere_samples.h) falls as N^-p:
 // p = 3/4 where they see edges, as in rooms, better where light is smooth (D.
 // Mitchell, Consequences of stratified sampling in graphics, SIGGRAPH 1996).
@@ -13,10 +13,10 @@ namespace meninas {
 
 inline constexpr double noise_order = 0.75;
 
-/// How many times the rays that are asked for are taken where each of so many receivers stands for
-/// as many of the elements, by its middle and a share of its corners: noise lies over all of them.
-/// It leaves a squared error of N^-2p, so that as many rays in all do most where N goes with the
-/// area to the power of 1 / (1 + 2p) = 0.4; a power of two, as nets are even then.
+/// The factor on the wanted rays of a vertex where each receiver stands for several elements, by its middle and a
+/// share of its corners, so that its noise covers all of them. The squared error is N^-2p, so a given total of
+/// rays does most if N grows with the area to the power of 1 / (1 + 2p) = 0.4. The factor is a power of two,
+/// because nets are even then.
 inline int ray_multiplier(std::size_t elements, std::size_t receivers) {
   constexpr double vertices_of_receiver = 2.0;
   const double elements_of_vertex =

@@ -57,7 +57,7 @@ DiscPart part_towards(const SolidBody& body, const Point3& x, const Direction& n
 constexpr std::uint32_t edge_cells = 8;
 constexpr std::uint32_t cells = edge_cells * edge_cells;
 
-/// What the rays to one body share.
+/// The data that the rays to one body share.
 struct BodyRays {
   const LightScene& light;
   const PlanePoints& points;
@@ -113,7 +113,7 @@ void add_ray(const BodyRays& rays, const DiscPart& part, const Point3& origin,
 }
 
 /// The mean by so many rays, spread by the density;
-/// points take turns in runs, each of them even. What cells show goes to `work.shown`.
+/// points take turns in runs, each of them even. The light that cells show goes to `work.shown`.
 SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed,
                    SolidWorkspace& work, std::uint64_t& traced) {
   static const FormFactorSettings settings{.min_throughput = 1e-6};
@@ -146,7 +146,7 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
   const auto& landings = work.gather.result.landings;
   for (std::size_t k = 0; k < landings.size(); ++k) {
     const ElementHit& landing = landings[k];
-    if (light.from_source[index(light.mesh.side_of_element[landing.element])] == 0)
+    if (light.direct_sides[index(light.mesh.side_of_element[landing.element])] == 0)
       continue;
     const Rgb arrived = share * Rgb(landing.light) * light.mesh.emission[landing.element];
     sum.total += arrived;
@@ -187,7 +187,7 @@ void add(const SolidLight& part, double weight, SolidLight& sum) {
 
 bool has_solid_light(const Lighting& light) {
   // The sky in a window, behind a solid, is gathered; to area lights solids are sheets.
-  return !light.scene.solids.empty() && !light.from_source.empty() &&
+  return !light.scene.solids.empty() && !light.direct_sides.empty() &&
          std::ranges::any_of(light.emitters, &Emitter::is_face);
 }
 

@@ -4,7 +4,7 @@
 //   S(x) = 1/pi integral over the directions in which a face of a solid is met first of tau(w) E(w) cos dw        W/m^2
 //
 // E is the emission of what the ray ends on, tau what faces, mirrors and the ways inside solids
-// leave of it (glass_rays.h); only emitters whose light is computed from the source count,
+// leave of it (glass_rays.h); only emitters whose light is direct count,
 // as others are gathered. S is a part of D: it is computed wherever
 // direct_irradiance.h and shared_light.h compute D, whose shadow rays end at solids.
 //
@@ -16,14 +16,17 @@
 //
 // where a ray counts if it meets this body first. Points are those of low-discrepancy sequences,
 // N to a body: N goes by the root of A, for the error is about A times 1 / sqrt(N).
-// Few of them find a lamp. So a quarter, spread evenly, tells which cells of the rectangle show any
-// light, and the others go to those and their neighbours, by a density q of which a part is even,
-// with tau E / q; S is a tenth of the mean of the first and nine tenths of that of the others,
-// whatever was found, so that its expectation is true.
+// Few rays find a lamp, so there are two stages. (1) A quarter of the rays, spread evenly, finds the
+// cells of the rectangle that show light. (2) The others follow a density q over these cells and their
+// neighbours, plus an even part, and count tau E / q.
+//
+//   S = 0.1 mean(1) + 0.9 mean(2)
+//
+// The weights are fixed, so S is unbiased. Fewer rays than there are cells are all spread evenly.
 // The mean over several points of a plane takes as many rays as one.
 //
 // Limits: light of punctual and area lights, which no ray meets,
-// goes straight through solids, each face a sheet (shadow_paths.h).
+// goes straight through solids, each face a sheet (virtual_light_visibility.h).
 #pragma once
 
 #include "radiosity/scene/lighting.h"

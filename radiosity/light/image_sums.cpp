@@ -26,8 +26,8 @@ bool shows_differences(const Lighting& light, const ImageSum& image) {
          (is_uneven(light.scene, light.emitters[image.emitter]) && variance_of(light, image) > alike);
 }
 
-bool learn(std::vector<ImageSum>& images) {
-  constexpr std::size_t most_known = 8;
+bool cache_occluders(std::vector<ImageSum>& images) {
+  constexpr std::size_t max_known = 8;
   bool any = false;
   for (ImageSum& image : images) {
     if (!image.blockers || image.blockers->met.empty())
@@ -36,7 +36,7 @@ bool learn(std::vector<ImageSum>& images) {
     learned += met.size();
     any = true;
     known.insert(known.begin(), met.begin(), met.end());
-    known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), most_known));
+    known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), max_known));
     met.clear();
   }
   return any;

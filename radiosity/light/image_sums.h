@@ -1,4 +1,4 @@
-// What the shadow rays of a mean have found of each image of an emitter (shared_light.h).
+// Visibility statistics of each emitter image from the shadow rays of a mean (shared_light.h).
 //
 // V is the share of an image that is seen past known blockers. One ray finds V = 0 or 1, and of an uneven
 // sky what it shows; its variance is V (1 - V), or that of what rays have shown.
@@ -11,8 +11,8 @@
 
 namespace meninas {
 
-/// What is in the way to one emitter in one world.
-struct ImageBlockers {
+/// The occluders before one emitter in one world.
+struct ImageOccluders {
   std::vector<CachedOccluder> known;
   std::vector<CachedOccluder> met; ///< by the mean in hand
   std::size_t learned = 0;       ///< so far, forgotten ones too
@@ -32,10 +32,10 @@ struct ImageSum {
   double squares = 0.0;              ///< the same, the square of its brightest channel
   std::uint32_t rays = 0;            ///< shadow rays so far
   std::uint32_t from_a_point = 1;    ///< from each of the next points
-  ImageBlockers* blockers = nullptr; ///< null where none are learned
+  ImageOccluders* blockers = nullptr; ///< null where none are learned
 };
 
-/// What an image brings to the point without blockers, its brightest channel, W/m^2.
+/// The irradiance from an image at the point without blockers, its brightest channel, W/m^2.
 double brought_by(const ImageSum& image, double form_factor);
 
 /// The variance of what a ray finds of an image, dimensionless.
@@ -46,6 +46,6 @@ bool shows_differences(const Lighting& light, const ImageSum& image);
 
 /// Later means know what rays have met: returns whether that is more than before.
 /// Where it is ever more, as it is of finely divided things, rays alone are better.
-bool learn(std::vector<ImageSum>& images);
+bool cache_occluders(std::vector<ImageSum>& images);
 
 } // namespace meninas

@@ -20,12 +20,12 @@ struct PunctualArrival {
   std::uint32_t light = 0;    ///< its number among the punctual lights
 };
 
-/// What punctual lights and their images send. Clears and fills `arrivals`.
+/// The light of punctual lights and their images. Clears and fills `arrivals`.
 void punctual_arrivals(const Lighting& light, const Receiver& receiver,
                        DirectWorkspace& workspace, std::vector<PunctualArrival>& arrivals);
 
 /// A point of an emitter or of an image of it.
-/// What a surface of reflection f sees of it is f cos_receiver cosine / r^2 area radiance.
+/// A surface with the BSDF f reflects f cos_receiver cosine / r^2 area radiance of it.
 struct EmissionSample {
   Vec3 towards{0.0};         ///< from the receiver to the point, in unfolded space
   double cosine = 0.0;       ///< at the emitter
@@ -37,7 +37,7 @@ struct EmissionSample {
 };
 
 /// Points `first` to `first + per_image` (at most 16) of the low-discrepancy sequence
-/// of `seed` on every image of every emitter that is computed from the source,
+/// of `seed` on every image of every emitter of direct light,
 /// of which about `images` are chosen where there are more.
 struct EmissionSampling {
   int per_image = 4;

@@ -20,7 +20,7 @@ DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
   return direct;
 }
 
-/// What landed rays bring: light reflected by elements,
+/// The light of landed rays: light reflected by elements,
 /// where no cluster owns it, and emission, where no closed form owns that.
 PointLight landed_light(const PointGathering& gathering, const GatheredRays& gathered,
                         ArrivedByLamp& by_lamp) {
@@ -69,7 +69,7 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
   return light;
 }
 
-/// What each cluster, and each node of their tree, sends on of each lamp.
+/// The share of each lamp in the light of each cluster, and of each node of their tree.
 LampShares shares_of_clusters(const LightScene& light, const SecondaryEmitters& clusters,
                               const ClusterTree& tree, const SharesByLamp& reflected) {
   LampShares lamps;
@@ -123,14 +123,14 @@ PointGathering::PointGathering(const LightScene& scene, SentLight sent,
       cluster_tree(make_cluster_tree(clusters.emitters)),
       cluster_emitters(make_emitter_tree(clusters.emitters)),
       lamps(shares_of_clusters(scene, clusters, cluster_tree, reflected_by_lamp)),
-      clustered(scene, clusters.worlds, clusters.emitters, cluster_emitters),
+      secondary_lighting(scene, clusters.worlds, clusters.emitters, cluster_emitters),
       net(make_direction_net(settings.rays)),
       others(settings.rays_before > 0 && settings.rays_before < settings.rays
                  ? make_direction_net(settings.rays, settings.rays_before)
                  : HemisphereSamples{}),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {
-  clustered.lamps = lamps ? &lamps : nullptr;
+  secondary_lighting.lamps = lamps ? &lamps : nullptr;
 }
 
 ReceiverArea area_of(const Receiver& point) {
@@ -143,7 +143,7 @@ ReceiverArea area_of(const Receiver& point) {
   return area;
 }
 
-/// What all rays of the point meet, those that have been traced before among them.
+/// The hits of all rays of the point, those that were traced before among them.
 static void gather_rays_at(const PointGathering& gathering, const Receiver& receiver,
                            std::uint32_t seed, const GatheredRays* before, PointWorkspace& work) {
   const ReceiverArea point = area_of(receiver);
@@ -169,7 +169,7 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
                                Rgb(0.0));
   PointLight light = landed_light(gathering, work.gather.result, work.indirect_by_lamp);
   light.from_clusters = cluster_irradiance(
-      {gathering.clustered, gathering.cluster_tree, gathering.secondary, gathering.cut}, receiver,
+      {gathering.secondary_lighting, gathering.cluster_tree, gathering.secondary, gathering.cut}, receiver,
       hash(seed, 2), work.clusters, work.direct);
   if (gathering.lamps)
     for (std::size_t l = 0; l < work.indirect_by_lamp.size(); ++l)
@@ -180,7 +180,7 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                     PointWorkspace& work) {
   PointLight light = indirect_light_at(gathering, receiver, seed, work);
-  light.from_source =
+  light.direct =
       direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
   work.direct_by_lamp = work.direct.by_lamp;
   return light;
@@ -196,7 +196,7 @@ static Receiver point_of(const ElementMesh& mesh, const SurfaceModel& surfaces, 
           side.tangent, side.coat};
 }
 
-/// What comes through at a place of an element of a translucent surface.
+/// The light that comes through at a place of an element of a translucent surface.
 static Rgb told_from_behind(const PointGathering& gathering, std::uint32_t element,
                             const glm::vec2& place, std::uint32_t seed, PointWorkspace& work) {
   const ElementMesh& mesh = gathering.light.mesh;

@@ -1,10 +1,10 @@
 // The light that arrives at one point:
 // from emitters by closed form, from everything else by rays over its hemisphere.
 //
-//   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
+//   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + secondary emitters
 //
 // D is the direct light (direct_irradiance.h). Rays land on elements of known radiosity;
-// elements so bright that rays would find them by chance are taken from the source as well
+// elements so bright that rays would find them by chance are sampled as lamps as well
 // (secondary_emitters.h), those far away together (cluster_cut.h). Each path is in one of the three.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace meninas {
 struct PointGatheringSettings {
   int rays = 512;              ///< over the hemisphere
   int rays_before = 0; ///< of these, that points may have traced before (row_cache.h)
-  int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
+  int cluster_shadow_rays = 8; ///< per secondary emitter, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
   double clusters_spared = 0.0; ///< ClusterSettings::spared
   double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
 };
@@ -31,7 +31,7 @@ struct SentLight {
   SharesByLamp by_lamp;
 };
 
-/// What light is gathered from, the same for all points.
+/// The light that points gather from, the same for all points.
 struct PointGathering {
   /// `reflected` is B by ElementId, emission left out. Samples follow the methods of pass one.
   PointGathering(const LightScene& light, SentLight sent,
@@ -50,7 +50,7 @@ struct PointGathering {
   ClusterTree cluster_tree; ///< over their emitters
   LightTree cluster_emitters; ///< over the same, for sampling
   LampShares lamps; ///< of the clusters
-  Lighting clustered; ///< the scene lit by the bright clusters
+  Lighting secondary_lighting; ///< the scene lit by the secondary emitters
   HemisphereSamples net;
   HemisphereSamples others; ///< of the net, without those before; empty where there are none
   Hemicube cube; ///< where the form factors are found so
@@ -66,12 +66,12 @@ struct PointWorkspace {
 };
 
 struct PointLight {
-  ArrivingLight from_rays, from_source, from_clusters;
+  ArrivingLight from_rays, direct, from_clusters;
   ArrivingLight emission;  ///< of what rays bring, that of emitters
   ArrivingLight sky;       ///< and that from where nothing is met
   std::uint32_t hits = 0;  ///< rays that met it
 
-  ArrivingLight all() const { return from_rays + from_source + from_clusters; }
+  ArrivingLight all() const { return from_rays + direct + from_clusters; }
   ArrivingLight indirect() const { return from_rays + from_clusters; }
 };
 
@@ -81,9 +81,9 @@ ReceiverArea area_of(const Receiver& point);
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                     PointWorkspace& work);
 
-/// What the light at the receiver would change by if elements reflected in every point what is
-/// gathered there, in place of `reflected`: by so many of the places where its rays land.
-/// Light of clusters and of landed rays is told alike. Rays are those of the net.
+/// The change of the irradiance at the receiver, W/m^2, if elements reflected at every point the light gathered
+/// there, in place of `reflected`: estimated at that many of the places where its rays land.
+/// Light of clusters and of landed rays is treated alike. Rays are those of the net.
 ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
                               std::uint32_t seed, PointWorkspace& work);
 

@@ -25,7 +25,7 @@ Rgb shown_by(const LightScene& light, const Emitter& emitter, const FoldedSegmen
   const Vec3 direction = last.to - last.from;
   if (light.portals.size() > 1 &&
       last_portal(light.portals, last.from, direction,
-                  least_height(light.surfaces.tolerance, segment.legs.size() > 1)) !=
+                  min_height(light.surfaces.tolerance, segment.legs.size() > 1)) !=
           emitter.portal)
     return Rgb(0.0);
   if (light.sky == nullptr)

@@ -1,13 +1,13 @@
-// What shadow rays find beyond openings to the sky (radiosity/scene/sky_portals.h).
+// The radiance of the sky that shadow rays find beyond openings (radiosity/scene/sky_portals.h).
 //
 //   E shown = pi L(d),   d the direction in which the last leg of a ray leaves
 //
-// as a factor of the opening's own E = pi L_0: exactly 1 where the sky is even, 0 where the ray leaves by an
-// opening behind this one.
+// as a factor (dimensionless) of the opening's own E = pi L_0, W/m^2: exactly 1 where the sky is even, 0 where the
+// ray leaves by an opening behind this one.
 #pragma once
 
 #include "mirror/emitters.h"
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 
 namespace meninas {
 
@@ -20,8 +20,8 @@ inline bool is_uneven(const LightScene& light, const Emitter& emitter) {
 /// beyond the scene, in no plane.
 Leg shadow_leg(const LightScene& light, const Emitter& emitter, Leg to_emitter);
 
-/// What an unblocked segment of shadow_leg() shows, over the emitter's own E; 0 where the ray leaves by
-/// another opening behind this one, which has its light.
+/// The irradiance shown by an unblocked segment of shadow_leg() over the emitter's own E, dimensionless; 0 where the
+/// ray leaves by another opening behind this one, which has its light.
 Rgb shown_by(const LightScene& light, const Emitter& emitter, const FoldedSegment& segment);
 
 } // namespace meninas

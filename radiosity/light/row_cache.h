@@ -1,4 +1,4 @@
-// What the rays of vertices have met, kept for when these gather once more.
+// Ray hits per vertex, cached so that a second gathering traces only the additional rays.
 //
 // Where elements are lit by a field that they make themselves (hierarchical/node_field.h)
 // vertices gather twice: with few rays, then with many, from other radiosities.

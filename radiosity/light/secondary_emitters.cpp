@@ -22,7 +22,7 @@ struct BrightBlock {
       0.0; ///< what gathering it by chance would cost: radiosity times the root of the area
 };
 
-/// What the recursion over the blocks needs.
+/// The state of the recursion over the blocks.
 struct ClusterSearch {
   const ElementMesh& mesh;
   const std::vector<Rgb>& sent; ///< by ElementId: the reflected radiosity, over holes too
@@ -136,7 +136,7 @@ Emitter make_emitter(const LightScene& light, const BrightBlock& candidate) {
   return emitter;
 }
 
-/// What elements reflect is of their solid part:
+/// The radiosity of elements spread over their holes, since only the solid part reflects:
 /// shadow rays go to the holes of a cluster as well, and nothing there stops them.
 std::vector<Rgb> spread_over_holes(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   std::vector<Rgb> sent(reflected.size());
@@ -223,7 +223,7 @@ SecondaryEmitters find_secondary_emitters(const LightScene& light, const std::ve
   if (usual <= 0.0)
     return clusters;
 
-  // Of too many the noisiest are kept. Uneven ones would be fewer,
+  // If there are too many, the noisiest are kept. Uneven clusters would be fewer,
   // but the brightness of a wall beside a point is not that of its mean.
   clusters.worlds = first_worlds(light.worlds, light.mirrors);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();

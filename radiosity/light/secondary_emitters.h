@@ -1,14 +1,17 @@
-// Bright clusters: reflected light that is so uneven that gather rays would find it by chance
+// Secondary emitters: reflected light that is so uneven that gather rays would find it by chance
 // (the spot a mirror throws on a floor, the sill below a window). When vertices gather,
 // such elements are treated as emitters: closed form times shadow rays, also through mirrors.
 //
 // An element is bright when its reflected radiosity exceeds `contrast` times
 // the median over the lit area. Bright neighbours of like radiosity on one side
 // are joined into blocks of root cells of a quad, or into cells of the forest.
-// If there are more than `most` clusters those that would be noisiest are kept,
-// and the rest is gathered; so it is with those that would add little to the noise of rays,
-// the sum of A B^2 over what these find, where `spared` says how little.
-// No path is in both: `owned` says which elements are taken from the source.
+//
+//   B = sum A_e B_e / A,   A = sum A_e,   noise = B sqrt(A)      over the elements e, the brightest channel; B in W/m^2
+//
+// At most `most` clusters are kept, in all worlds together, the noisiest first; other elements are gathered by rays.
+// The least noisy clusters are also left to the rays while their added squared noise stays below `spared`
+// times that of the gathered elements, sum A B^2.
+// No path is in both: `owned` says which elements are sampled as lamps.
 // An element that is cut out in part shines with its solid share from all of it.
 #pragma once
 

@@ -3,7 +3,7 @@
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
 #include "radiosity/light/portal_light.h"
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "radiosity/scene/small_elements.h"
 #include "scenes/sampling.h"
 
@@ -15,16 +15,16 @@ namespace meninas {
 
 namespace {
 
-/// Of the points so far.
+/// The sums over the points so far.
 struct PointSum {
   ArrivingLight punctual;
   ArrivedByLamp punctual_by_lamp = {};
   int points = 0, punctual_points = 0;
 };
 
-/// `learns`: of what blocks its rays.
+/// `caches_occluders`: of what blocks its rays.
 std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
-                     int rays, bool learns) {
+                     int rays, bool caches_occluders) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
@@ -34,12 +34,11 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                            .world = image.world,
                            .emitter = image.emitter,
                            .from_a_point = static_cast<std::uint32_t>(rays),
-                           .blockers = learns ? &work.blockers_of[key] : nullptr});
+                           .blockers = caches_occluders ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
-/// Of the images at a point the most that one of them brings,
-/// as far as it is not known to be hidden.
+/// The largest irradiance from one image at a point, as far as it is not known to be hidden.
 double max_brought(const SharedLightWorkspace& work) {
   double most = 0.0;
   for (const ImageAtPoint& at : work.at_point) {
@@ -64,7 +63,7 @@ double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> p
   return sum;
 }
 
-/// What the point sees of an image past known blockers.
+/// The visible part of an image from the point, past cached occluders.
 ImageAtPoint image_at(const Lighting& light, const Receiver& receiver, const VirtualLight& image,
                       std::uint32_t sum, SharedLightWorkspace& work) {
   ImageAtPoint at{.image = sum};
@@ -72,7 +71,7 @@ ImageAtPoint image_at(const Lighting& light, const Receiver& receiver, const Vir
     at.form_factor = image.afar;
     return at;
   }
-  const ImageBlockers* blockers = work.images[sum].blockers;
+  const ImageOccluders* blockers = work.images[sum].blockers;
   if (blockers && !blockers->known.empty()) {
     work.cutting.assign(1, image.polygon);
     for (const CachedOccluder& blocker : blockers->known)
@@ -165,14 +164,14 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
                     work.point.choice, work.point.lights);
 }
 
-/// How many points a mean has at most. Where each of them chooses a few of thousands of emitters it would
-/// hardly settle: elements light others, and what choices are off by averages out.
-int most_points(const Lighting& light, const SharedLightSettings& settings) {
+/// The largest number of points of a mean. Where each of them chooses a few of thousands of emitters the mean would
+/// hardly settle: elements light others, and the errors of choices average out.
+int points_limit(const Lighting& light, const SharedLightSettings& settings) {
   constexpr std::size_t few = 64; // of the emitters one of so many
   const bool hardly_settles =
       light.emitters.size() / few > static_cast<std::size_t>(settings.images);
-  return hardly_settles && !settings.one_place ? std::max(settings.points, few_of(settings.most_points))
-                                           : settings.most_points;
+  return hardly_settles && !settings.one_place ? std::max(settings.points, reduced_count(settings.max_points))
+                                           : settings.max_points;
 }
 
 /// Adds what every image brings to a point past known blockers,
@@ -189,12 +188,12 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
     work.at_point.clear();
     work.parts.clear();
     // An image that is one of a choice has too few rays to learn from.
-    const bool learns = settings.learns && are_all();
+    const bool caches_occluders = settings.caches_occluders && are_all();
     for (const VirtualLight& image : work.point.lights)
       work.at_point.push_back(
-          image_at(light, receiver, image, sum_of(work, light, image, settings.rays, learns), work));
+          image_at(light, receiver, image, sum_of(work, light, image, settings.rays, caches_occluders), work));
   }
-  const double most = settings.brightest_most ? max_brought(work) : 0.0;
+  const double most = settings.rays_by_brightness ? max_brought(work) : 0.0;
 
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
     const ImageAtPoint& at = work.at_point[i];
@@ -208,8 +207,8 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
 }
 
 /// Keeps what has blocked a ray to the image.
-void meet_blocker(const Lighting& light, const LegBlocker& by, ImageSum& image) {
-  ImageBlockers& blockers = *image.blockers;
+void cache_occluder(const Lighting& light, const LegBlocker& by, ImageSum& image) {
+  ImageOccluders& blockers = *image.blockers;
   if (by.triangle == none<TriangleId> || blockers.too_many())
     return;
   const PatchId patch = light.scene.surfaces.patch_of_triangle[index(by.triangle)];
@@ -259,7 +258,7 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
       image.all += ray.weight;
       if (((dark >> k) & 1U) != 0U) {
         if (image.blockers)
-          meet_blocker(light, blockers[k], image);
+          cache_occluder(light, blockers[k], image);
         continue;
       }
       image.seen += ray.weight;
@@ -344,7 +343,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
   auto& solid_points = work.point.solids.points;
   solid_points.clear();
   Rgb before(0.0);
-  const int most = most_points(light, settings);
+  const int most = points_limit(light, settings);
   int wanted = std::min(settings.points, most);
   for (;;) {
     const NumberedPoint next = next_point();
@@ -365,7 +364,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
                          penumbra_error(light, work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
     if (has_settled || dark || sum.points >= most) {
-      work.has_learned = learn(work.images);
+      work.has_new_occluders = cache_occluders(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
       const SolidLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);

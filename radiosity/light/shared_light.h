@@ -7,16 +7,14 @@
 // counted on from point to point: a few rays from each do what many would from one.
 // g is the share of the form factor a ray stands for, so that a fully visible image comes
 // out as the closed form's mean, without noise. Points are doubled until the mean settles.
-// How many rays a point sends depends on those of earlier points alone, which keeps means true:
-// a point that sent more where its own first rays disagree, and believed them where they agree,
-// would darken the outer half of every penumbra and brighten the inner one. What is left of that
-// is that means may settle on the first points: light or shade that all of their rays have missed.
+// The number of rays of a point depends only on earlier points, so the mean is unbiased. If it depended
+// on the point's own rays, the outer half of each penumbra would be too dark and the inner half too bright.
+// Limit: a mean may settle early and miss light or shade that none of its first rays met.
 //
-// What blocks rays is known to the means that come after,
-// as long as they share a workspace (occluder_cache.h).
-// They take the shadows of known blockers out of F exactly and send their rays past them:
-// once all are known V is 1, and a penumbra has no noise, but that of an uneven sky in a window.
-// Means are true whatever is known, as it was learned from other rays.
+// Occluders that rays have met are cached for later means that share the workspace (occluder_cache.h).
+// These take the shadows of cached occluders out of F exactly and send their rays past them:
+// once all are cached V is 1, and a penumbra has no noise, but that of an uneven sky in a window.
+// The mean stays unbiased, because cached occluders were found by other rays.
 #pragma once
 
 #include "radiosity/light/element_images.h"
@@ -32,7 +30,7 @@ namespace meninas {
 
 struct SharedLightSettings {
   int points = 2;       ///< to begin with
-  int most_points = 16; ///< doubled up to this while the mean is unsure
+  int max_points = 16; ///< doubled up to this while the mean is unsure
   int images = 256;     ///< emitter images computed at a point; of more, a choice
   int rays = 4;         ///< from each point to an image, to begin with
   int penumbra_rays =
@@ -40,10 +38,10 @@ struct SharedLightSettings {
   int solid_rays = 256; ///< from all points together to a body of solid glass that fills the hemisphere (glass_light.h)
   double unsure = 0.01;         ///< relative change of the mean by the last doubling
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
-  bool brightest_most =
+  bool rays_by_brightness =
       false; ///< images that bring less than the brightest one in sight take fewer rays
   bool one_place = false; ///< all points are the same one, which sends rays in rounds
-  bool learns = false; ///< what blocks its rays, and uses what others have learned
+  bool caches_occluders = false; ///< what blocks its rays, and uses what others have learned
 };
 
 /// A shadow ray that waits for others by way of about as many mirrors.
@@ -56,7 +54,7 @@ struct WaitingRay {
   Point3 from, to;
 };
 
-/// What one point sees of an image past known blockers.
+/// The visible part of an image from one point, past cached occluders.
 struct ImageAtPoint {
   std::uint32_t image = 0;          ///< index of its ImageSum
   double form_factor = 0.0;         ///< times how many images it stands for
@@ -77,10 +75,10 @@ struct SharedLightWorkspace {
   ElementImages elements;
   std::vector<PunctualArrival> arrivals;
   double shadow_error = 0.0; ///< of the last mean, about, by the choice of shadow rays: its brightest channel, W/m^2
-  bool has_learned = false;  ///< something that blocks, from the last mean
+  bool has_new_occluders = false;  ///< something that blocks, from the last mean
   /// By world and emitter. Kept from mean to mean until it is cleared:
   /// to be done where results are not to depend on what came before.
-  std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;
+  std::unordered_map<std::uint64_t, ImageOccluders> blockers_of;
 };
 
 struct NumberedPoint {

@@ -8,7 +8,8 @@
 //
 // is taken at points of R: points of the whole element would miss a spot much smaller than it.
 // R is cut out by the regular pyramid of eight sides around the cone, which is 5 % larger.
-// Narrow is a spot of less than sixteen elements' width: others are told by points of the elements.
+// A spot is narrow if its cone is less than sixteen elements wide. Wider spots are sampled at the points
+// of the elements.
 // Limits: windows of mirrors do not cut R, so a spot by way of a mirror much smaller than an element
 // may still be missed.
 #pragma once
@@ -18,7 +19,7 @@
 
 namespace meninas {
 
-/// What one spot, or one image of it, can shine on. Shadows aside.
+/// The part of an element that one spot, or one image of it, can shine on, shadows aside.
 struct SpotPart {
   std::uint32_t light = 0; ///< index into Scene::lights
   WorldId world = real_world;

@@ -1,4 +1,4 @@
-// Which quarter of a cell a point is in: cells are divided into four by the middles of their edges.
+// The child of a cell that holds a point: cells are divided into four by the middles of their edges.
 //
 // A quad's children are (0,0), (1,0), (0,1), (1,1) of a 2 x 2 grid. A triangle's first three keep
 // its corner of that number and point as it does; the fourth, in the middle, is turned half round:

@@ -35,8 +35,8 @@ struct Body {
   bool is_orientable = true;
 };
 
-/// Triangles that share edges. Those of a body, as far as they are not turned round,
-/// look all outwards or all inwards.
+/// Triangles that share edges. All triangles of a body, as far as they are not turned round, look outwards, or all
+/// look inwards.
 struct Bodies {
   std::vector<Body> bodies;
   std::vector<std::uint32_t> of_triangle; ///< by TriangleId; no_body where it is not opaque
@@ -174,7 +174,7 @@ std::optional<Cap> cap_of(const Scene& scene, const std::vector<VertexId>& loop,
   return std::nullopt;
 }
 
-/// What a triangle in the plane of the parts leaves of them. Parts that it misses stay whole.
+/// The parts minus a triangle in their plane. Parts that it misses stay whole.
 std::vector<ConvexPolygon> left_by(const TriangleCorners& triangle, const Direction& normal,
                                    const std::vector<ConvexPolygon>& parts) {
   const double sign = glm::dot(area_vector(triangle), normal) > 0.0 ? 1.0 : -1.0;
@@ -220,7 +220,7 @@ public:
 
   bool are_asked_too_much() const { return compared > max_compared; }
 
-  /// Those in planes as far from the origin as a point's plane, and as steep; each is counted.
+  /// Visits the triangles in planes as far from the origin as a point's plane, and as steep; each is counted.
   template <typename Visit>
   void visit(const Point3& point, const Direction& normal, const Visit& visit) {
     const double distance = std::abs(glm::dot(point, normal));
@@ -286,7 +286,7 @@ double volume_of(const std::vector<TriangleCorners>& shell) {
   return volume;
 }
 
-/// What would close the loops of a body, or nothing where that cannot be.
+/// The caps that close the loops of a body, or nothing where they cannot be closed.
 std::optional<std::vector<Cap>> caps_of(const Scene& scene, const Body& body, double tolerance) {
   const auto loops = loops_of(body);
   if (!loops)

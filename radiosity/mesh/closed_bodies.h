@@ -6,8 +6,8 @@
 //
 // Limits: loops are those of up to 4,096 edges that are star-shaped about one of their corners,
 // and what covers them lies in their plane to the tolerance of the scene: a body without a bottom
-// that is sunk into a floor is open. Of very many loops on very many triangles the first
-// are asked, in the order of the triangles, until that has been twenty million comparisons.
+// that is sunk into a floor is open. At most twenty million loop-triangle comparisons are made, in the
+// order of the triangles; bodies with loops beyond that count as open.
 #pragma once
 
 #include "scenes/surfaces/surfaces.h"
@@ -29,7 +29,7 @@ struct ClosedBody {
 std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceModel& surfaces,
                                            const std::vector<std::uint8_t>& wanted);
 
-/// How often the body winds around a point, 1 inside and 0 outside of one that does not cross
+/// The winding number of a body about a point, dimensionless, 1 inside and 0 outside of one that does not cross
 /// itself:  w(x) = 1/4pi sum of the signed solid angles of its triangles (scenes/surfaces/shells.h).
 double winding_number(const std::vector<TriangleCorners>& shell, const Point3& x);
 

@@ -42,7 +42,7 @@ struct Box {
   }
 };
 
-/// What textures make of glass may be opaque in places.
+/// Textured glass may be opaque in places.
 bool is_clear(const Material& material) { return is_glass(material) && !is_textured(material); }
 
 /// The opaque faces of a scene by their boxes, in a binary tree.
@@ -174,7 +174,7 @@ bool hovers_along(const std::array<Point3, 3>& face, const MeshSide& side, const
          });
 }
 
-/// How far the runs of segments extend whose ends meet within `grain`.
+/// Measures the extent of the runs of segments whose ends meet within `grain`.
 void measure_runs(std::vector<ContactSegment>& segments, double grain) {
   struct Key {
     std::int64_t x, y;
@@ -247,7 +247,7 @@ std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
   return inner;
 }
 
-/// What stands on sides is found by.
+/// The data for finding the faces that stand on sides.
 struct StandingFaces {
   const Scene& scene;
   const SurfaceModel& surfaces;
@@ -255,7 +255,7 @@ struct StandingFaces {
   std::vector<std::uint8_t> inner_edges; ///< by PatchId
 };
 
-/// What stands on one side.
+/// The contacts on one side.
 std::vector<ContactSegment> contacts_on(const StandingFaces& standing, const MeshSide& side) {
   const auto& [scene, surfaces, faces, inner] = standing;
   std::vector<ContactSegment> found;
@@ -290,7 +290,7 @@ std::vector<ContactSegment> contacts_on(const StandingFaces& standing, const Mes
     const std::array<Point3, 3> face = corners(scene, t);
     if (const auto contact = contact_of(face, side, place, limit))
       add(*contact);
-    // Of what hovers along the side the outline parts light and shade.
+    // The outline of a face that hovers along the side separates light and shade.
     const Patch& hovering_patch = surfaces.patches[index(surfaces.patch_of_triangle[index(t)])];
     if (hovering_patch.triangles[0] == t && hovers_along(face, side, place, limit)) {
       const std::span<const Point3> polygon = polygon_of(hovering_patch);
@@ -310,7 +310,7 @@ struct RootRange {
 };
 RootRange roots_near(const Patch& patch, const MeshSide& side, const PlanePlace& place,
                      const Segment2& segment) {
-  // Of the part of the segment beside the patch; (u, v) need not be affine, so a cell more.
+  // The bounds of the part of the segment beside the patch; (u, v) need not be affine, so one cell more.
   Vec2 low(1.0), high(0.0);
   constexpr int steps = 8;
   std::vector<Vec2> outline;

@@ -5,8 +5,8 @@
 // Cells of the mesh are cut along them (cut_cells.h).
 //
 // A face stands on a side where it crosses its plane, or where an edge of it lies in the plane or
-// hovers at most a sixteenth of an element above it: what is so low parts the light of the surface
-// as what stands on it does. Of faces that hover along it the outline is taken. Panes are no walls.
+// hovers at most a sixteenth of an element above it. A face this close separates the light as a touching
+// one does. For a face parallel to the side its outline is used. Panes are ignored.
 // Faces in the plane itself have no segment; the sides of what lies there do.
 //
 // Limits: sides smaller than a sixteenth of an element either way are not looked at.

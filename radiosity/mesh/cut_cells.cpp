@@ -52,7 +52,7 @@ PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, cons
   return result;
 }
 
-/// What is left of an edge of a leaf between the places where something stands on it.
+/// The open stretches of an edge of a leaf, between the places where something stands on it.
 struct OpenEdge {
   bool met = false; ///< something stands on it, its ends included
   bool met_at_start = false, met_at_end = false;
@@ -129,7 +129,7 @@ private:
   std::vector<Name> joined_;
 };
 
-/// What tells an open stretch of edge k from others, at its end c, in leaves of any size beside it:
+/// The landmark that tells an open stretch of edge k from others, at its end c, in leaves of any size beside it:
 /// the place nearest to the corner where something stands, or the way that leads from the corner.
 Vec2 landmark(const PlaneCell& cell, std::size_t k, std::size_t corner, const Stretch& stretch) {
   const Vec2 a = cell.corners[k], b = cell.corners[cell.next(k)];
@@ -327,7 +327,7 @@ RootsBySide roots_by_side(const ElementMesh& mesh, const SurfaceModel& surfaces)
   return by_side;
 }
 
-/// Those of one side of a surface, whose corners get their groups.
+/// The cut leaves of one side of a surface; their corners get their groups.
 std::vector<CutLeaf> cut_leaves_of(const ElementMesh& mesh, const SurfaceModel& surfaces,
                                    std::span<const std::uint32_t> roots) {
   std::vector<CutLeaf> leaves;

@@ -1,13 +1,17 @@
 // Leaves of the mesh cut along what stands on them, and the vertices of the regions that are left.
 //
 // A leaf that segments of contact_segments.h pass is cut by them (cut_polygon.h), as far as the run
-// to which a segment belongs extends over a quarter of the leaf: smaller feet are left whole, and
-// what stands on them is found by rays (contact_mask.h). Every region is an element.
+// to which a segment belongs is long enough,
+//
+//   reach >= sqrt(A_leaf) / 4      (metres):
+//
+// leaves with smaller feet are left whole, and rays find what stands on them (contact_mask.h). Every region
+// is an element. (Cutting along D0 edges: Heckbert 1992; Lischinski, Tampieri, Greenberg 1992.)
 //
 // A region keeps the corners of its leaf, between which light is interpolated as in any element.
-// A corner is its own where it lies in the region and nothing stands there. Another one is a vertex
-// apart, with the light that the region has next to it. Of leaves side by side regions share such a
-// vertex when they meet on an open stretch of the edge that leads to the corner: so light is
+// If a corner of the leaf lies in the region and nothing stands there, the common vertex is used.
+// Otherwise the region has a separate vertex at that place, with the light next to it. Neighbouring
+// regions share it if they meet on an unblocked stretch of the edge leading to the corner: so light is
 // continuous along a wall and round its end, and never through it.
 #pragma once
 

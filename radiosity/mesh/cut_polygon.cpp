@@ -127,7 +127,7 @@ Segment2 chord_of(std::span<const Vec2> polygon, double grain, const Segment2& w
   return clip_to(polygon, grain, chord) ? chord : way;
 }
 
-/// How much of the way between two pieces is blocked. Light finds no way through a gap narrower
+/// The blocked length of the way between two pieces. Light finds no way through a gap narrower
 /// than `narrow` that segments leave on the chord on which the way lies.
 double blocked_length(const Segment2& way, const Segment2& chord, double narrow,
                       std::span<const Segment2> segments, double grain) {

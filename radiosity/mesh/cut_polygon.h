@@ -59,6 +59,7 @@ std::vector<Stretch> stretches_along(Vec2 a, Vec2 b, const CutPolygon& cut, std:
 /// Whether a piece of the region has a corner within `grain` of the point.
 bool has_corner(const CutPolygon& cut, std::uint32_t region, Vec2 point, double grain);
 
+/// Signed, positive if counter-clockwise, in the square of the points' unit.
 double area_of(std::span<const Vec2> polygon);
 
 } // namespace meninas

@@ -18,7 +18,7 @@ int wanted(double length, double element_size) {
       std::clamp(std::ceil(length / element_size - 1e-6), 1.0, double{largest_division}));
 }
 
-/// What a patch would choose alone.
+/// The divisions that a patch would choose alone.
 /// Slivers count by their area, lest a long thin triangle be cut into thousands.
 Divisions own_divisions(const Patch& patch, double element_size) {
   const auto edge = [&patch](int a, int b) {

@@ -1,5 +1,5 @@
-// How many elements each patch has along its edges,
-// so that patches of one surface agree on the edges they share.
+// The numbers of elements along the edges of each patch, so that patches of one surface agree on the edges
+// they share.
 //
 // Opposite edges of a quad have one division, the three edges of a triangle as well,
 // and an edge shared by two patches of one surface joins theirs: each such class takes

@@ -105,10 +105,10 @@ ElementTable make_element_table(const ElementMesh& mesh, bool all_divided) {
   return table;
 }
 
-LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
+ElementLookup make_element_lookup(const Scene& scene, const SurfaceModel& surfaces,
                                 const MirrorSet& mirrors, const ElementMesh& mesh,
                                 Point3 frame_centre, double frame_scale) {
-  LandingTable table;
+  ElementLookup table;
   table.faces.resize(2 * scene.triangles.size());
   tbb::parallel_for(std::size_t{0}, table.faces.size(), [&](std::size_t k) {
     const auto triangle = static_cast<std::uint32_t>(k / 2);

@@ -41,7 +41,7 @@ struct FaceRecord {
   double frame_offset = 0.0; ///< of its plane in the frame of the ray scene
 };
 
-/// What the inner loops need of a side, close together.
+/// The data of a side that the inner loops need, close together.
 struct SideRecord {
   std::uint32_t first_element = 0; ///< its first root cell where cells of it are divided
   std::int32_t nu = 1, nv = 1;
@@ -69,12 +69,12 @@ struct ElementTable {
 /// That of a mesh. With `all_divided` every side is looked up by way of its cells.
 ElementTable make_element_table(const ElementMesh& mesh, bool all_divided = false);
 
-struct LandingTable {
+struct ElementLookup {
   std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
   ElementTable elements;
 };
 
-LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
+ElementLookup make_element_lookup(const Scene& scene, const SurfaceModel& surfaces,
                                 const MirrorSet& mirrors, const ElementMesh& mesh,
                                 Point3 frame_centre, double frame_scale);
 
@@ -94,7 +94,7 @@ inline glm::vec2 bilinear_uv(const glm::vec2& w, const glm::vec2& xy) {
 glm::vec2 general_uv(const SurfaceModel& surfaces, std::uint32_t triangle, float b1, float b2);
 
 /// (u, v) of a hit in its patch.
-inline glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces,
+inline glm::vec2 hit_uv(const FaceRecord& face, const SurfaceModel& surfaces,
                             std::uint32_t triangle, float b1, float b2) {
   if (face.map == UvMap::general)
     return general_uv(surfaces, triangle, b1, b2);

@@ -6,7 +6,7 @@
 // a triangle side has n rows of triangles, n = nu = nv, row j holds 2 (n - j) - 1 of them,
 // lower and upper alternating. Every root cell may be divided, into four by the middles
 // of its edges, and so may its quarters (subdivision.h): the mesh is a forest of quadtrees,
-// its leaves are the elements. Those of a side are numbered in a row, depth first.
+// its leaves are the elements. The elements of a side are numbered in a row, depth first.
 // So the element of a hit (patch, u, v) is index arithmetic and a descent by halves,
 // and no ray is ever traced against elements.
 // Where something stands across a leaf, the leaf has an element for every region that is left
@@ -128,7 +128,7 @@ struct ElementMesh {
   std::vector<HangingVertex> hanging; ///< those whose ends hang themselves after these
   double element_size = 0.0; ///< of the roots, metres; a surface may have larger ones
 
-  /// What stands on the sides; null: not looked for. Cells are cut by it.
+  /// The contacts on the sides, by which cells are cut; null: not looked for.
   std::shared_ptr<const ContactSegments> contacts;
   std::vector<CellLine> lines;
   std::vector<std::uint32_t> line_of_cell; ///< by CellId, the first of its lines; `uncut`. Empty: nothing is cut

@@ -9,13 +9,13 @@ namespace meninas {
 bool carries_radiosity(const Material& material) {
   if (is_emitter(material) || !(is_mirror(material) || is_glass(material)))
     return true;
-  // What is blended by its texture or its vertices is there somewhere.
+  // A surface that is blended by its texture or its vertices is there somewhere.
   if (is_blended(material) && material.transmission == 1.0)
     return true;
   // Where its texture of transmission is black glass is opaque.
   if (material.transmission_texture)
     return true;
-  // And where its texture of metalness is, it is no metal.
+  // Where its texture of metalness is black, it is no metal.
   if (material.metallic_roughness_texture && material.transmission < 1.0)
     return true;
   return is_translucent(material) ||
@@ -44,7 +44,7 @@ std::vector<double> meshed_areas(const Scene& scene, const SurfaceModel& surface
 
 ElementSizes share_elements(const std::vector<double>& areas, double elements) {
   constexpr double most = 3.0; // times what all others have
-  constexpr double most_finer = 256.0;
+  constexpr double max_finer = 256.0;
   ElementSizes sizes;
   const auto largest = std::max_element(areas.begin(), areas.end());
   if (largest == areas.end())
@@ -55,7 +55,7 @@ ElementSizes share_elements(const std::vector<double>& areas, double elements) {
   const double n = std::max(elements, 1.0),
                counted = others > 0.0 ? std::min(*largest, most * others) : *largest;
   sizes.element_size =
-      std::max(std::sqrt((others + counted) / n), std::sqrt((others + *largest) / n) / most_finer);
+      std::max(std::sqrt((others + counted) / n), std::sqrt((others + *largest) / n) / max_finer);
   sizes.of_surface.assign(areas.size(), sizes.element_size);
   if (*largest > counted)
     sizes.of_surface[static_cast<std::size_t>(largest - areas.begin())] =

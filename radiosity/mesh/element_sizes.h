@@ -1,4 +1,4 @@
-// How large the elements of each surface are, where a number of elements is asked for.
+// The element size of each surface, metres, for a wanted number of elements.
 //
 // A size h for all is sqrt(A / N): N elements share the area A. A lit room on a large dark ground
 // would be left with one element a wall. So a surface that has more than three quarters of all area,
@@ -17,7 +17,7 @@
 
 namespace meninas {
 
-/// How many sides of a patch are in the mesh: those that carry radiosity and are not `dark`.
+/// The number of sides of a patch in the mesh: those that carry radiosity and are not `dark`.
 /// Ideal mirrors and clear glass have none.
 unsigned meshed_sides(const Scene& scene, const SurfaceModel& surfaces, PatchId patch,
                       const DarkSides& dark = {});

@@ -6,7 +6,9 @@
 // backs of single-sided bodies). Where a closed body has no light in it,
 // its double-sided triangles are therefore what single-sided ones would be.
 //
-// A lamp is in a body where one of its triangles has a corner inside or crosses the shell.
+// A lamp is in a body where one of its triangles has a corner inside or crosses the shell. A point x is inside if
+//
+//   w(x) = 1/4pi sum of the signed solid angles of the body's triangles > 1/2      (dimensionless, closed_bodies.h)
 //
 // Light comes through translucent surfaces: bodies that have some are left as they are.
 //

@@ -88,7 +88,7 @@ std::uint64_t elements_of(const Scene& scene, const SurfaceModel& model,
   return elements;
 }
 
-/// What is asked for, of each surface.
+/// The wanted element size of each surface.
 ElementSizes sizes_of(const Scene& scene, const SurfaceModel& surfaces,
                       const MeshSettings& settings, const DarkSides& dark) {
   if (settings.element_size <= 0.0) {
@@ -101,7 +101,7 @@ ElementSizes sizes_of(const Scene& scene, const SurfaceModel& surfaces,
   return {size, std::vector<double>(surfaces.surfaces.size(), size)};
 }
 
-/// How many there are: each takes one element at least.
+/// The number of sides in the mesh: each takes one element at least.
 double sides_in_mesh(const Scene& scene, const SurfaceModel& surfaces, const DarkSides& dark) {
   double sides = 0.0;
   for (std::size_t p = 0; p < surfaces.patches.size(); ++p)
@@ -120,9 +120,9 @@ void enlarge(ElementSizes& sizes, double times) {
     size *= times;
 }
 
-/// Of patches of many sizes that share edges all would be divided like the largest, and triangles
-/// have twice the elements of quads: beyond twice what is asked for, and one element a side,
-/// they agree on fewer edges, and all elements are as much larger as it takes.
+/// Patches of many sizes that share edges would all be divided like the largest, and triangles
+/// have twice the elements of quads. Beyond twice the wanted number, and one element a side,
+/// patches agree on fewer edges, and all elements are as much larger as it takes.
 void fit_to_target(double asked, const std::function<Division(double)>& divide,
                    ElementSizes& sizes, Division& division) {
   constexpr double most = 2.0, enough = 1.25;

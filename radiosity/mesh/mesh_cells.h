@@ -1,4 +1,4 @@
-// The forest of cells under an element mesh.
+// The forest of cells under an element mesh: restricted quadtrees (Von Herzen, Barr 1987).
 //
 // Steps of make_element_mesh() and divide_elements(); who uses a mesh needs neither.
 #pragma once
@@ -28,7 +28,7 @@ double longest_edge(const ElementMesh& mesh, const ElementCorners& corners);
 Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
                 Vec2 st);
 
-/// What keeps the vertices of different surfaces and sides apart.
+/// A key that keeps the vertices of different surfaces and sides apart.
 std::uint64_t surface_side(const ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshCell& cell);
 

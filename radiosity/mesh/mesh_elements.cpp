@@ -31,7 +31,7 @@ struct NewElements {
   VertexNumbers& vertices;
   const CutCells& cuts;
 
-  /// How a leaf is cut; null where nothing touches it.
+  /// The cut of a leaf; null where nothing touches it.
   const CutCell* cut(std::uint32_t number) const {
     return cuts.of_cell.empty() || cuts.of_cell[number] == uncut
                ? nullptr
@@ -78,7 +78,7 @@ ElementCorners new_corners(const NewElements& to, MeshCell& cell) {
   return corners;
 }
 
-/// The corners of a region of a cut leaf. Those it does not share are told apart by their group.
+/// The corners of a region of a cut leaf. Corners it does not share are told apart by their group.
 ElementCorners corners_of_region(const NewElements& to, const MeshCell& cell,
                                  const CutRegion& region) {
   constexpr std::uint64_t group_bits = 34; // above the numbers of sides of surfaces

@@ -1,4 +1,4 @@
-// What is the same in two meshes of the same roots (subdivision.h).
+// The cells, elements and vertices that are the same in two meshes of the same roots (subdivision.h).
 #include "radiosity/mesh/subdivision.h"
 
 #include <algorithm>

@@ -41,8 +41,8 @@ bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> divi
 /// the same cell in `to`, a mesh of the same roots that has all cells of `from`.
 std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
 
-/// By ElementId of `to`, a mesh as above: the weight, at least 0, of the element of `from` that it is part of.
-/// Of cells with several elements the largest counts for all. `weights` empty: so is the result.
+/// By ElementId of `to`, a mesh as above: the weight (dimensionless, at least 0) of the element of `from` that it is
+/// part of. In cells with several elements the largest counts for all. `weights` empty: so is the result.
 std::vector<float> parts_of(const ElementMesh& from, std::span<const float> weights,
                             const ElementMesh& to);
 
@@ -56,7 +56,7 @@ ElementCorners same_corners(const ElementMesh& from, ElementId element, const El
 ElementPoint place_in(const ElementMesh& coarse, const SurfaceModel& surfaces,
                       const ElementMesh& mesh, ElementVertexId vertex);
 
-/// The mean of the ends for all hanging vertices. `values` by ElementVertexId.
+/// The mean of the ends, f_v = (f_a + f_b) / 2, for all hanging vertices. `values` by ElementVertexId, in any unit.
 template <typename Value>
 void settle_hanging(const ElementMesh& mesh, std::vector<Value>& values) {
   for (const HangingVertex& h : mesh.hanging)

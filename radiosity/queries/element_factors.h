@@ -2,8 +2,8 @@
 //
 //   F_ij = sum over worlds w of tau_w F^w_ij = F^0_ij + sum over w > 0 of tau_w F^w_ij,      mean of the channels
 //
-// Both come from the assembler of pass one (transport/form_factors.h), by the same rays: once as ever, and once with chains
-// that end at the first reflection. What passes panes and solids of glass unreflected counts as direct.
+// Both come from the assembler of pass one (transport/form_factors.h), by the same rays: once as ever, and once with
+// chains that end at the first reflection. Light that passes panes and solids of glass unreflected counts as direct.
 // Where nothing escapes and mirrors absorb nothing  sum_j F_ij = 1,  since no element sees itself.
 #pragma once
 

@@ -132,9 +132,9 @@ std::vector<ExtendedFactor> hemicube_form_factors(const Scene& scene, const Surf
   const Hemicube coarse = make_hemicube(about_half(settings.resolution));
   const std::array tallies{tally_of(node_scene, cube, places), tally_of(node_scene, coarse, places),
                            tally_of(node_scene, coarse, places_of(from, settings.points, 2))};
-  // What no cell has met in n independent cubes may still be as large as 3 / n of the largest cell,
+  // A target that no cell has met in n independent cubes may still be as large as 3 / n of the largest cell,
   // at a confidence of 95 % (the rule of three).
-  // Of cubes in rows, which see alike, only one in a row counts.
+  // Cubes in a row see alike, so only one in a row counts.
   const double largest_cell = 4.0 / (std::numbers::pi * settings.resolution * settings.resolution);
   const double unseen = 3.0 * largest_cell / std::sqrt(static_cast<double>(places.size()));
   return node_factors_of(node_scene, tallies, [unseen](std::span<const double> values) {

@@ -13,8 +13,8 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_faces = 64, most_points = 1'000'000;
-constexpr double most_tests = 2e9; ///< of points against patches: some ten seconds
+constexpr std::size_t max_grid_faces = 64, max_grid_points = 1'000'000;
+constexpr double max_tests = 2e9; ///< of points against patches: some ten seconds
 
 /// A rectangle in the plane of a face: corner + [0, a] u + [0, b] v.
 struct Rectangle {
@@ -82,7 +82,7 @@ bool is_over(const Patch& patch, const Point3& x, const Direction& normal) {
 
 double rounded_count(double x) { return std::max(1.0, std::round(x)); }
 
-/// How many points a grid has along the longer and the shorter side, which may be more than there are numbers for.
+/// The numbers of points of a grid along the longer and the shorter side, which may exceed the range of an int.
 std::pair<double, double> counts(double length, double width) {
   const double p = grid_spacing(length, width);
   const bool narrow = length >= 2.0 * width;
@@ -103,7 +103,7 @@ std::optional<MeasuringGrid> grid_on(const Patches& patches, const Direction& no
     return std::nullopt;
   const auto [along, across] = counts(grid.length, grid.width);
   const double count = along * across;
-  if (!(count <= double(most_points)) || count * double(patches.size()) > most_tests)
+  if (!(count <= double(max_grid_points)) || count * double(patches.size()) > max_tests)
     throw UsageError("--grid", fmt::format("node '{}' would have {:g} x {:g} points", node, along, across));
   grid.along = static_cast<std::size_t>(along);
   grid.across = static_cast<std::size_t>(across);
@@ -134,9 +134,9 @@ std::vector<MeasuringGrid> measuring_grids(const Scene& scene, const SurfaceMode
   for (const Patch& patch : surfaces.patches)
     if (patch.node == asked)
       faces[patch.surface].push_back(&patch);
-  if (faces.size() > most_faces)
+  if (faces.size() > max_grid_faces)
     throw UsageError("--grid", fmt::format("node '{}' has {} flat faces; grids are for nodes with at most {}",
-                                           node, faces.size(), most_faces));
+                                           node, faces.size(), max_grid_faces));
   std::vector<MeasuringGrid> grids;
   std::size_t number = 0;
   for (const auto& [surface, patches] : faces) {
@@ -161,7 +161,7 @@ std::vector<MeasuringGrid> measuring_grids(const Scene& scene, const SurfaceMode
   std::size_t points = 0;
   for (const MeasuringGrid& grid : grids)
     points += grid.points.size();
-  if (points > most_points)
+  if (points > max_grid_points)
     throw UsageError("--grid", fmt::format("node '{}' would have {} points", node, points));
   return grids;
 }

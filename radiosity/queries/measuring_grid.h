@@ -36,7 +36,7 @@ double grid_spacing(double length, double width);
 std::vector<MeasuringGrid> measuring_grids(const Scene& scene, const SurfaceModel& surfaces,
                                            const std::string& node, const GridSettings& settings);
 
-/// Of the illuminance, or any other value, of a grid's points.
+/// A summary of the illuminance, or any other value, of a grid's points.
 struct GridSummary {
   double minimum = 0.0, mean = 0.0, maximum = 0.0;
   double uniformity = 0.0; ///< U0 = minimum / mean; 0 where all is dark

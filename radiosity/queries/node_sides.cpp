@@ -17,14 +17,14 @@ namespace meninas {
 
 namespace {
 
-/// What is seen in a share less than this is seen through a seam.
+/// A node seen in a share less than this is seen through a seam.
 constexpr double min_share = 1e-3;
 
 bool is_double_sided(const Scene& scene, const Face& face) {
   return scene.materials[index(face.material)].double_sided;
 }
 
-/// What one side of a face sees, as shares of its rays, and of lines to points of B.
+/// The view of one side of a face, as shares of its rays, and of lines to points of B.
 struct SideView {
   double others = 0.0;  ///< nodes other than A
   double escaped = 0.0; ///< nothing
@@ -96,7 +96,7 @@ public:
   Survey(const SideQuestion& question, const std::vector<Face>& from)
       : question_(question), from_(from),
         node_scene_(question.scene, question.surfaces, question.mirrors,
-                    {question.to, NodeSides::both}, std::min(question.max_depth, most_mirrors)),
+                    {question.to, NodeSides::both}, std::min(question.max_depth, max_mirrors)),
         targets_(question), in_from_(question.scene.nodes.size(), 0) {
     for (const Face& face : from)
       in_from_[index(face.node)] = 1;
@@ -118,7 +118,7 @@ public:
   }
 
 private:
-  static constexpr int most_mirrors = 8;
+  static constexpr int max_mirrors = 8;
 
   /// Rays for each triangle of a fan.
   const HemisphereSamples& net_of(std::size_t corners) {
@@ -200,7 +200,7 @@ private:
   int rays_ = 0, lines_ = 0;
 };
 
-/// Which sides of a double-sided face count, by the rules of the header.
+/// The sides of a double-sided face that count, by the rules of the header.
 std::array<bool, 2> facing_sides(const FaceViews& views, bool& outside_left_out) {
   std::array<bool, 2> counts{true, true};
   const auto keep_where = [&](const auto& holds) {
@@ -235,7 +235,7 @@ std::array<bool, 2> counting(const Scene& scene, const Face& face, NodeSides sid
   return {may_count(sides, true), may_count(sides, false) && back};
 }
 
-/// What of A and B does not count where it matters, by sums over faces.
+/// The parts of A and B that do not count where it matters, by sums over faces.
 struct LeftOut {
   double area = 0.0, black = 0.0;                        ///< black: of what A sends
   double seen = 0.0, from_behind = 0.0, of_behind = 0.0; ///< lines

@@ -1,4 +1,4 @@
-// Which sides of the faces of nodes count in form factors between them.
+// The sides of the faces of nodes that count in form factors between them.
 //
 // A single-sided face has its front. A double-sided one has two sides, and exporters make nearly
 // everything double-sided. `facing` counts of each double-sided face of A those sides that see B:
@@ -13,9 +13,9 @@
 // Where faces lie on one another in one plane, the side there counts once, as that of the first.
 // For several B together (rows of a matrix) a side counts when it sees any of them.
 //
-// What a side sees is found by cosine-distributed rays, also in mirrors, and by straight lines
-// between points of A and B. It counts as seen from a thousandth of what the other side sees on:
-// seams between faces let through less. With few rays for each of very many faces
+// The view of a side is found by cosine-distributed rays, also in mirrors, and by straight lines
+// between points of A and B. A side counts as seeing B if it sees at least a thousandth of what the other side
+// sees: seams between faces let through less. With few rays for each of very many faces
 // (below 64) a side that sees next to nothing may be missed.
 #pragma once
 

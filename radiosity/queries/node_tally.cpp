@@ -34,8 +34,8 @@ std::vector<ExtendedFactor> node_factors_of(const NodeScene& scene,
   double cut = 0.0;
   for (const NodeTally& tally : tallies)
     cut += tally.cut / static_cast<double>(tallies.size());
-  // What lies beyond the depth asked for is not asked for;
-  // all that is missing then is what has grown too faint on the way.
+  // Light beyond the wanted depth is not asked for;
+  // only light that has grown too faint on the way is missing then.
   if (scene.settings.max_bounces < FormFactorSettings{}.max_bounces)
     cut = std::min(cut, scene.settings.min_throughput);
   for (std::size_t g = 0; g < factors.size(); ++g) {

@@ -1,5 +1,5 @@
-// What the methods of gltf_node_factors.h that trace rays share:
-// the scene they look light up in, and tallies of landings.
+// The common part of the ray-tracing methods of gltf_node_factors.h: the scene they look light up in, and
+// tallies of landings.
 #pragma once
 
 #include "radiosity/transport/hemisphere_rays.h"
@@ -26,7 +26,7 @@ void add(const NodeTally& part, NodeTally& tally);
 /// From the values of several tallies of the same thing to an estimate of it.
 using Combine = std::function<Estimate(std::span<const double> values)>;
 
-/// By set, each world's reflectances taken out. What was cut adds to the error of the totals.
+/// By set, each world's reflectances taken out. The light that was cut adds to the error of the totals.
 std::vector<ExtendedFactor>
 node_factors_of(const NodeScene& scene, std::span<const NodeTally> tallies, const Combine& combine);
 

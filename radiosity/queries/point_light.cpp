@@ -43,7 +43,7 @@ std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
     const auto seed = hash(settings.direct.seed, 0x90147, static_cast<std::uint32_t>(k));
     const PointLight arrived = light_at(gathering, receiver, seed, spaces.local());
     const ArrivingLight all = arrived.all();
-    const Rgb direct = arrived.from_source.total + arrived.emission.total + arrived.sky.total;
+    const Rgb direct = arrived.direct.total + arrived.emission.total + arrived.sky.total;
     const GatheredRays& met = spaces.local().gather.result;
     const bool inside =
         all.total == Rgb(0.0) && met.landed == 0.0 && met.escaped == 0.0 && met.cut == 0.0;

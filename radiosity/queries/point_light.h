@@ -1,4 +1,4 @@
-// What arrives at points of the room, on its surfaces or in the middle of it, on one side of a plane each.
+// Irradiance at points of the room, on its surfaces or in the middle of it, on one side of a plane each.
 //
 //   H(x, n) = D(x, n) + 1/N sum over rays of tau B(landing) + what bright elements send,      W/m^2
 //
@@ -43,7 +43,7 @@ struct PointIrradiance {
 };
 
 /// In the order of the points. `reflected` is B by ElementId, emission left out. A point within the
-/// tolerance of a surface that faces as it does, or the other way, lies on it. What `progress` throws ends it.
+/// tolerance of a surface that faces as it does, or the other way, lies on it. An exception of `progress` ends it.
 std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
                                                   SentLight reflected,
                                                   std::span<const QueryPoint> points,

@@ -1,9 +1,9 @@
-// Which lamps light comes from: the share of each in what emitters send.
+// The share of each lamp in the light that emitters send.
 //
-// Lamps are those of scenes/lamps.h. An emitter of a scene is of one lamp. A bright cluster
-// (light/secondary_emitters.h) sends on what several have sent: by channel the share of lamp l is
-// B_l / B, dimensionless, which adds up to 1. What arrives is told apart by these shares while it
-// is found, so that the parts by lamp are parts of the same sum.
+// Lamps are those of scenes/lamps.h. An emitter of a scene is of one lamp. A secondary emitter
+// (light/secondary_emitters.h) reflects the light of several: by channel the share of lamp l is
+// s_l = B_l / B, dimensionless, with sum s_l = 1. Arriving light is divided by these shares while it
+// is gathered, so that the parts by lamp are parts of the same sum.
 #pragma once
 
 #include "scenes/types.h"
@@ -29,11 +29,11 @@ template <typename Number> struct TableByLamp {
 using LightByLamp = TableByLamp<double>; ///< W/m^2; empty: not asked for
 using SharesByLamp = TableByLamp<float>; ///< floats, for what many rays read
 
-/// Of the emitters, sides and lights of a Lighting.
+/// The lamps of the emitters, sides and lights of a Lighting.
 struct LampShares {
   std::size_t count = 0;                  ///< of lamps; 0: light is not told apart
   std::vector<std::uint32_t> of_emitter;  ///< the one lamp of each
-  SharesByLamp of_cluster, of_node;       ///< of bright clusters, and of nodes of their tree
+  SharesByLamp of_cluster, of_node;       ///< of secondary emitters, and of nodes of their tree
   std::vector<std::uint32_t> of_side;     ///< by SideId: of what it emits, `no_lamp` where nothing
   std::vector<std::uint32_t> of_punctual; ///< by place in LightScene::punctual
   std::uint32_t sky = 0;
@@ -41,7 +41,7 @@ struct LampShares {
   explicit operator bool() const { return count > 0; }
 };
 
-/// What has arrived at a point so far, by lamp.
+/// The irradiance at a point so far, by lamp, W/m^2.
 using ArrivedByLamp = std::vector<Rgb>;
 
 /// Adds what one row of shares is of `arrived`.

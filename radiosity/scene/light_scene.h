@@ -1,11 +1,14 @@
 // Everything light is looked up in while it is gathered:
 // geometry, rays, mirrors, mesh, and who computes which emitter.
 //
-// Emitters are taken from the source (closed form,
+// Emitters send direct light (closed form,
 // direct_irradiance.h) when they are small, as lamps and windows are.
 // However many they are, a point computes a bounded number of them (mirror/light_choice.h).
 // When emitters make up more than half of the meshed area they are gathered by rays like everything
-// else, which is exact where all walls glow. No light path is in both: `from_source` says which.
+// else, which is exact where all walls glow. No light path is in both: `direct_sides` says which.
+//
+//   E = pi L (W/m^2),   closed form if  sum of emitting areas <= sum of meshed areas / 2
+//
 #pragma once
 
 #include "mirror/virtual_lights.h"
@@ -33,13 +36,13 @@ struct LightScene {
   const WorldTree& worlds;
   const ElementMesh& mesh;
   const DecodedTextures& textures;
-  LandingTable landing;
-  std::vector<Emitter> emitters; ///< those whose light is computed from the source; area lights always
+  ElementLookup landing;
+  std::vector<Emitter> emitters; ///< of direct light; area lights always
   std::vector<std::uint8_t>
-      from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
+      direct_sides; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
   LightTree emitter_tree;            ///< over the emitters
   std::vector<SkyPortal> portals; ///< openings that are among the emitters, last
-  std::vector<PunctualLight> punctual; ///< always from the source; the suns of the sky among them
+  std::vector<PunctualLight> punctual; ///< always direct light; the suns of the sky among them
   Rgb background{0.0}; ///< irradiance pi L of an even sky, gathered by rays that escape
   const RadianceMap* sky = nullptr; ///< a sky that is not even, as the same rays see it
   std::vector<Bsdf>
@@ -70,6 +73,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
 void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> groups);
 
 /// The same scene on another mesh, which is kept with it; it refers to what `light` refers to.
-std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh);
+std::shared_ptr<const LightScene> light_scene_on(const std::shared_ptr<const LightScene>& light,
+                                                 ElementMesh mesh);
 
 } // namespace meninas

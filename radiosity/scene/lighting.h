@@ -19,13 +19,13 @@ struct Lighting {
   const LightTree& emitter_tree; ///< over the emitters
   std::span<const PunctualLight> punctual;
   std::span<const std::uint8_t>
-      from_source; ///< by SideId: 1 where the emitters are its emission; empty where they are no side's
+      direct_sides; ///< by SideId: 1 where the emitters are its emission; empty where they are no side's
   const LampShares* lamps = nullptr; ///< of the emitters; null: light is not told apart
 
   /// By its own lamps.
   Lighting(const LightScene& own)
       : scene(own), worlds(own.worlds), emitters(own.emitters), emitter_tree(own.emitter_tree),
-        punctual(own.punctual), from_source(own.from_source),
+        punctual(own.punctual), direct_sides(own.direct_sides),
         lamps(own.lamps ? &own.lamps : nullptr) {}
 
   /// By other emitters alone, which no side's emission is.

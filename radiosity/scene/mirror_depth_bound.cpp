@@ -35,7 +35,7 @@ double passage(const MirrorWorld& first, std::span<const ConvexPolygon> last,
 
 } // namespace
 
-double world_tail_bound(const WorldTree& tree, const MirrorSet& mirrors, double area) {
+double mirror_depth_bound(const WorldTree& tree, const MirrorSet& mirrors, double area) {
   double sum = 0.0;
   for (const auto& cut : tree.cut) {
     const double throughput = std::max({cut.throughput.r, cut.throughput.g, cut.throughput.b});

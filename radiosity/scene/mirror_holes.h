@@ -1,8 +1,7 @@
 // Holes of cut-out mirrors and panes: what meets its mirror in a hole is not reflected.
 //
-// Windows of mirror worlds know nothing of holes, and shadow rays do not find them,
-// as a leg is not blocked in the plane it ends in.
-// So every segment is asked at the points in which its legs end on mirrors.
+// Mirror-world windows ignore holes, and shadow rays miss them because a leg is never blocked in the plane
+// where it ends. So each segment is tested at every point where a leg ends on a mirror.
 #pragma once
 
 #include "radiosity/scene/light_scene.h"

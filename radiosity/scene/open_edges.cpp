@@ -11,9 +11,9 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_loose_edges = 4096;
-constexpr std::size_t most_corners = 32; ///< of a convex polygon: clipping adds some
-constexpr std::size_t most_cut = 512;    ///< of an outline that is cut: that takes up to their cube
+constexpr std::size_t max_loose_edges = 4096;
+constexpr std::size_t max_corners = 32; ///< of a convex polygon: clipping adds some
+constexpr std::size_t max_cut = 512;    ///< of an outline that is cut: that takes up to their cube
 
 using EdgeEnds = std::pair<VertexId, VertexId>;
 
@@ -151,8 +151,8 @@ bool is_ear(const std::vector<Point3>& line, std::size_t k, const Vec3& normal) 
 /// A convex outline, in parts that share its first corner.
 void cut_fan(std::vector<Point3> line, std::vector<std::vector<Point3>>& polygons) {
   using Offset = std::vector<Point3>::difference_type;
-  while (line.size() > most_corners) {
-    const auto last = line.begin() + Offset{most_corners};
+  while (line.size() > max_corners) {
+    const auto last = line.begin() + Offset{max_corners};
     polygons.emplace_back(line.begin(), last);
     line.erase(line.begin() + 1, last - 1);
   }
@@ -180,7 +180,7 @@ std::vector<std::vector<Point3>> open_polygons(const Scene& scene, const Surface
   std::vector<std::vector<Point3>> polygons;
   const double tolerance = surfaces.tolerance;
   const std::vector<EdgeEnds> loose = loose_edges(find_topology(scene, 0.5 * tolerance));
-  if (loose.size() > most_loose_edges)
+  if (loose.size() > max_loose_edges)
     return polygons;
   for (const std::vector<Point3>& line :
        closed_lines(scene, bare_neighbours(scene, loose, tolerance))) {
@@ -191,7 +191,7 @@ std::vector<std::vector<Point3>> open_polygons(const Scene& scene, const Surface
       continue;
     if (is_convex(corners))
       cut_fan(std::move(corners), polygons);
-    else if (corners.size() <= most_cut)
+    else if (corners.size() <= max_cut)
       cut_ears(std::move(corners), polygons);
   }
   return polygons;

@@ -13,7 +13,7 @@
 
 namespace meninas {
 
-/// Corners in order, of either orientation.
+/// Corners in order, metres, of either orientation.
 std::vector<std::vector<Point3>> open_polygons(const Scene& scene, const SurfaceModel& surfaces);
 
 } // namespace meninas

@@ -168,15 +168,14 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
   const bool has_suns = scene.background.map && !scene.background.map->suns.empty();
   const bool has_points = !scene.lights.empty() || !scene.area_lights.empty() || has_suns;
   if (has_points && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
-    plan.warnings.push_back("light of point, spot, directional and area lights is followed over the "
-                            "mirror worlds alone: what "
-                            "small mirrors or longer chains of mirrors would throw is left out");
+    plan.warnings.push_back("point, spot, directional and area lights are reflected by enumerated "
+                            "mirrors only; their light by small mirrors or longer chains is missing");
   }
   const auto solids =
       names_where(materials_where(scene, [](TriangleId) { return true; }), is_solid_glass);
   if (has_points && !solids.empty()) {
-    plan.warnings.push_back("solid glass does not bend the light of point, spot, directional and area "
-                            "lights: to that its faces are sheets, passed straight: " +
+    plan.warnings.push_back("solid glass does not refract light of point, spot, directional and area "
+                            "lights; it passes straight through: " +
                             quoted_names(solids));
   }
 }
@@ -205,14 +204,14 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
     return is_pane(m) && !is_blended(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_frosted); !names.empty()) {
-    plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +
+    plan.warnings.push_back("frosted glass lights other surfaces as clear glass would: " +
                             quoted_names(names));
   }
   const auto is_rough_solid = [](const Material& m) {
     return is_solid_glass(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_rough_solid); !names.empty()) {
-    plan.warnings.push_back("solid glass is polished, however rough it is said to be: " +
+    plan.warnings.push_back("the roughness of solid glass is ignored: " +
                             quoted_names(names));
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
@@ -274,7 +273,7 @@ void describe_lobes(const std::vector<const Material*>& materials,
   }
 }
 
-/// What will run, and why, in the order in which it runs.
+/// The stages that will run, and why, in their order.
 std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const TransportPlan& plan,
                                          const std::vector<const Material*>& materials) {
   std::vector<std::string> stages;
@@ -329,7 +328,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   TransportPlan plan;
   plan.mirrors = find_mirrors(scene, surfaces, settings.mirrors);
   plan.worlds = mirror_worlds(plan.mirrors, settings.worlds);
-  plan.world_tail = world_tail_bound(plan.worlds, plan.mirrors, receiving_area(scene, surfaces));
+  plan.mirror_depth_bound = mirror_depth_bound(plan.worlds, plan.mirrors, receiving_area(scene, surfaces));
   plan.mirror_list = list_mirrors(scene, plan.mirrors);
   plan.emitters = count_emitters(scene, surfaces);
   plan.punctual_lights = scene.lights.size();

@@ -1,5 +1,8 @@
-// The plan: what the scene contains, and so which transport has to be modelled.
-// What a scene does not need is not run.
+// The plan: the contents of a scene, and so the transport that has to be modelled. Stages that a scene does not
+// need are not run.
+//
+// Worlds w of Eq. 1 (radiosity/pass_one.h) are in the plan while tau_w = product of their mirrors' reflectances >=
+// min_throughput (mirror/worlds.h). Areas in m^2; reflectances and the bound of the rest are dimensionless.
 #pragma once
 
 #include "mirror/worlds.h"
@@ -20,7 +23,7 @@ struct TransportPlan {
   MirrorSet mirrors;
   WorldTree worlds;
   std::vector<PlannedMirror> mirror_list;
-  double world_tail = 0.0; ///< bound on the mean share of light from beyond the worlds (mirror_depth_bound.h)
+  double mirror_depth_bound = 0.0; ///< bound on the mean share of light from beyond the worlds (mirror_depth_bound.h)
   std::size_t emitters = 0; ///< emitting patch sides
   std::size_t punctual_lights = 0;
   std::size_t area_lights = 0; ///< that are no faces

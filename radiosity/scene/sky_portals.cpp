@@ -13,17 +13,17 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_portals = 64, most_candidates = 1024;
+constexpr std::size_t max_portals = 64, max_candidates = 1024;
 constexpr int points = 16;          ///< of an opening that are asked
 constexpr double open_enough = 0.25; ///< share of rays outwards that escape
 constexpr double shut_enough = 0.25; ///< share of rays inwards that may escape
 constexpr double small_enough = 0.5; ///< share of the area that it lights
 
-/// How far a ray comes past panes, metres: infinitely far where it meets nothing else.
+/// The free path of a ray past panes, metres: infinite where it meets nothing else.
 double free_path(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays, Ray ray) {
-  constexpr int most_panes = 16;
+  constexpr int max_panes = 16;
   double path = 0.0;
-  for (int pane = 0; pane < most_panes; ++pane) {
+  for (int pane = 0; pane < max_panes; ++pane) {
     const auto hit = closest_hit(rays, ray);
     if (!hit)
       return std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ double hair_of(const SurfaceModel& surfaces, const SkyPortal& opening) {
   return std::max(4.0 * surfaces.tolerance, 1e-5 * std::sqrt(opening.area));
 }
 
-/// What rays from points of a polygon find on one side of it.
+/// The view of rays from points of a polygon on one side of it.
 struct Outlook {
   double escaping = 0.0; ///< share of them
   double lit = 0.0;      ///< mean of pi d^2 of the others: about the area of what it lights, m^2
@@ -203,10 +203,10 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
   std::vector<SkyPortal> candidates = candidates_of(scene, surfaces);
   // Boards and leaves have outlines as well: what is open is told by a few rays each.
   std::erase_if(candidates, [&](const SkyPortal& c) { return !is_open(surfaces, rays, c); });
-  if (candidates.size() > most_candidates)
-    candidates.resize(most_candidates);
+  if (candidates.size() > max_candidates)
+    candidates.resize(max_candidates);
   for (SkyPortal& opening : candidates) {
-    if (portals.size() == most_portals)
+    if (portals.size() == max_portals)
       break;
     const Outlook front = outlook_of(scene, surfaces, rays, opening, 1.0),
                   back = outlook_of(scene, surfaces, rays, opening, -1.0);
@@ -220,7 +220,7 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
 }
 
 std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& origin,
-                          const Vec3& direction, double least_height) {
+                          const Vec3& direction, double min_height) {
   std::uint32_t last = no_portal;
   double farthest = -std::numeric_limits<double>::infinity();
   const double length = glm::length(direction);
@@ -231,7 +231,7 @@ std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& orig
       continue;
     const double height = glm::dot(plane.normal, origin) - plane.offset;
     const double t = height / -approach;
-    if (height <= least_height || t * length <= farthest)
+    if (height <= min_height || t * length <= farthest)
       continue;
     if (contains(portals[p], origin + t * direction)) {
       last = p;

@@ -25,21 +25,21 @@ struct SkyPortal {
   double area = 0.0;
 };
 
-/// Those of a scene under a sky: openings that are open to it on one side alone, no more than half as large
-/// as what they light, about pi d^2 for rays that end after d metres; the 64 largest. The light of others, as
+/// The portals of a scene under a sky: openings that are open to it on one side only, at most half as large
+/// as the area they light, about pi d^2 for rays that end after d metres; the 64 largest. The light of others, as
 /// of a shelf or a pot's mouth, is gathered.
 std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& surfaces,
                                         const RayScene& rays);
 
-/// How high above a portal's plane a ray must set out to leave by it, metres. A receiver sees nothing of an
-/// emitter in whose plane it is (mirror/virtual_lights.h); a mirror there has sent what came from inside.
-constexpr double least_height(double tolerance, bool reflected) {
+/// The least height above a portal's plane, metres, from which a ray can leave by it. A receiver sees nothing of an
+/// emitter in whose plane it is (mirror/virtual_lights.h); a mirror there has sent light that came from inside.
+constexpr double min_height(double tolerance, bool reflected) {
   return reflected ? -tolerance : tolerance;
 }
 
 /// The last of the portals by which a ray leaves from `origin`, where it has set out or was last
 /// reflected; no_portal where it leaves by none.
 std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& origin,
-                          const Vec3& direction, double least_height);
+                          const Vec3& direction, double min_height);
 
 } // namespace meninas

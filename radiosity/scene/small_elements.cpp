@@ -11,15 +11,15 @@ static bool is_small(const LightScene& light, ElementId element) {
   return is_small(mesh, mesh.sides[index(mesh.side_of_element[index(element)])]);
 }
 
-bool has_few_rays(const LightScene& light, ElementId element) {
+bool has_reduced_rays(const LightScene& light, ElementId element) {
   return light.finely_tessellated && is_small(light, element);
 }
 
-bool needs_few_samples(const LightScene& light, ElementId element) {
+bool has_reduced_samples(const LightScene& light, ElementId element) {
   constexpr double small_share = 1.0 / 64.0; // of all light
   const Rgb& emission = light.mesh.emission[index(element)];
   if (emission == Rgb(0.0))
-    return has_few_rays(light, element);
+    return has_reduced_rays(light, element);
   return is_small(light, element) && !light.emitter_tree.nodes.empty() &&
          light.mesh.area[index(element)] * std::max({emission.r, emission.g, emission.b}) <=
              small_share * light.emitter_tree.nodes[0].power;
@@ -28,7 +28,7 @@ bool needs_few_samples(const LightScene& light, ElementId element) {
 std::size_t sampled_elements(const LightScene& light) {
   std::size_t eighths = 0;
   for (std::uint32_t e = 0; e < element_count(light.mesh); ++e)
-    eighths += needs_few_samples(light, ElementId{e}) ? 1 : 8;
+    eighths += has_reduced_samples(light, ElementId{e}) ? 1 : 8;
   return eighths / 8;
 }
 

@@ -48,7 +48,7 @@ struct GlassSum {
     glass += clear.glass;
     tint += clear.glass * clear.pane.tint;
   }
-  /// What it passes on of light from everywhere.
+  /// The share of light from everywhere that it passes on.
   Rgb passed_on(Bsdf like) const {
     like.metal = metal / points;
     like.glass = glass / points;

@@ -1,5 +1,5 @@
-// What a textured surface reflects and emits diffusely:
-// at a point, and as means over the elements of pass one.
+// The diffuse reflectance and emission of a textured surface, at a point and as means over the elements of
+// pass one.
 //
 //   rho(x) = what its lobes reflect in the mean (diffuse_reflectance, scenes/materials/bsdf.h),   E(x) = pi L(x)
 //
@@ -33,7 +33,7 @@ SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures
 Bsdf glass_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
               Vec2 barycentric);
 
-/// What the elements of a side of glass pass on, reflected or passed, of light from everywhere:
+/// The share of light from everywhere that the elements of a side of glass reflect or transmit,
 /// by their place among those of the side.
 /// The mean of a glass of mean tint stands for the mean over its tints.
 std::vector<Rgb> passed_on_by_glass(const Scene& scene, const SurfaceModel& surfaces,

@@ -13,7 +13,7 @@ struct ScenePlace {
   Vec2 barycentric{0.0};
 };
 
-/// Of the triangles of a patch the one that holds the point, or comes nearest to that.
+/// The place on the triangle of a patch that holds the point, or comes nearest to that.
 ScenePlace place_on(const Scene& scene, const Patch& patch, const Point3& x);
 
 /// Texture coordinates as the texture takes them, (0, 0) where there is none

@@ -1,4 +1,4 @@
-// What of a solved scene a glTF viewer is given to show: triangles by node, material and kind.
+// The triangles of a solved scene for a glTF viewer, by node, material and kind.
 //
 //   lit     the elements, with the radiosity of pass one as their unlit colour
 //   lobe    ideal mirrors, metals that pass one takes for them, and glass, as the file's own material

@@ -28,7 +28,7 @@ std::vector<std::byte> solution_bytes(std::uint64_t scene_hash, const ElementMes
                                       const RadiositySolution& solution,
                                       const MeshSettings& settings, const std::string& name);
 
-/// What a solution was made with, and what the solve said about itself.
+/// The settings that a solution was made with, and the figures of its solve.
 struct StoredSolution {
   MeshSettings mesh;
   std::size_t elements = 0;

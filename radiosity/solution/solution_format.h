@@ -1,4 +1,4 @@
-// What the writer and the reader of solution files share (solution_file.h).
+// The format shared by the writer and the reader of solution files (solution_file.h).
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"

@@ -29,7 +29,7 @@ double number_or_infinity(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
 }
 
-/// A number of things. What is none, such as 1.5 or 1e308, is no solution of ours.
+/// A number of things. A file with a number that is none, such as 1.5 or 1e308, is no solution of ours.
 std::size_t count_in(const json& value) {
   if (!value.is_number_unsigned())
     throw json::type_error::create(302, "no number of things", &value);
@@ -261,7 +261,7 @@ IrradianceField field_of(const std::filesystem::path& file, StoredSolution solut
     if (!is_division_of(light->mesh, solution.division)) {
       refuse(file, "damaged: its elements are no division of its mesh");
     }
-    light = light_scene_on(*light, divided_mesh(light->mesh, light->surfaces, solution.division));
+    light = light_scene_on(light, divided_mesh(light->mesh, light->surfaces, solution.division));
   }
   check_belongs(file, solution, light->mesh);
   return {std::move(solution.field), std::move(light)};

@@ -58,7 +58,7 @@ Rgb dressed_radiosity(const LightScene& light, const ShownPoint& point, const gl
   if (material.unlit)
     return std::numbers::pi * material.base_color * colour;
   const bool textured = shown_texture(light.scene, material).has_value();
-  // Of a texture that is not in the file the element's mean is what can be shown.
+  // If the texture is not in the file, only the element's mean can be shown.
   const bool is_mean = !textured && is_textured(material);
   MaterialPoint whole = untextured(material);
   if (is_blended(material))

@@ -2,7 +2,7 @@
 //
 //   COLOR_0 = s B,   B = E + rho H (+ tau H_behind),   s a power of 2^(1/16), clipped to [0, 1]
 //
-// linear, by point of the faces (shown_faces.h). Of what has a texture rho is without it: a viewer
+// linear, by point of the faces (shown_faces.h). The rho of textured faces is without the texture: a viewer
 // multiplies. Unlit surfaces have B = pi L. Alpha is that of the file's vertices.
 #pragma once
 

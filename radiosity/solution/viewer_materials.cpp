@@ -50,7 +50,7 @@ json glass_extensions(const Material& material) {
   return extensions;
 }
 
-/// Of a scene of this size about this centre.
+/// A camera of a scene of this size about this centre.
 json camera_json(const Camera& camera, const Point3& centre, double size) {
   constexpr double nearest = 1e-3; // of the scene: depth buffers ask for some distance
   const double znear = camera.znear > 0.0 ? camera.znear : nearest * size;
@@ -110,7 +110,7 @@ json ViewerMaterials::lit(const Material& material) {
   json made{{"name", material.name}, {"extensions", {{unlit, json::object()}}}};
   json& colour = made["pbrMetallicRoughness"];
   const double alpha = material.alpha_mode == AlphaMode::opaque ? 1.0 : material.alpha;
-  // What viewers without the extension show of a lit surface is then even, too.
+  // Viewers without the extension then show a lit surface evenly, too.
   colour = {{"baseColorFactor", factor(Rgb(1.0), alpha)},
             {"metallicFactor", 0.0},
             {"roughnessFactor", 1.0}};

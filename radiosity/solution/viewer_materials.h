@@ -35,8 +35,8 @@ private:
   std::map<std::pair<MaterialId, ShownAs>, std::size_t> known_;
 };
 
-/// `cameras` and their nodes, in world space. Of panoramas a view straight ahead of 90 degrees
-/// is there. Lens and sensor are in `extras`, as the loader reads them (docs/input.md).
+/// `cameras` and their nodes, in world space. A panorama becomes a view straight ahead of 90 degrees.
+/// Lens and sensor are in `extras`, as the loader reads them (docs/input.md).
 struct ViewerCameras {
   nlohmann::json cameras = nlohmann::json::array(), nodes = nlohmann::json::array();
 };

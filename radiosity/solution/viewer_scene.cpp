@@ -113,7 +113,7 @@ private:
     list.push_back({name, add_view(glb_, items, false), sizeof(Item), type});
   }
 
-  /// Those of a piece count from the first point of its range.
+  /// The indices of a piece count from the first point of its range.
   void add_indices() {
     std::vector<std::uint32_t> indices;
     for (const ShownPiece& piece : faces_.pieces) {

@@ -6,7 +6,30 @@
 
 namespace meninas {
 
-/// Of the orders of magnitude by which the error has to fall: 0 to 1.
+/// This many bounces show what light there is where no bound is known.
+static constexpr int unbounded_iterations = 100;
+
+static int iterations_of(int sweeps, std::size_t shooters) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  return static_cast<int>(std::min(most, static_cast<std::size_t>(sweeps) * shooters));
+}
+
+template <typename Value>
+Convergence<Value> stopping_rule(const SolverSettings& settings, const Value& amplification,
+                                 std::size_t shooters) {
+  const bool bounded = worst(amplification) < std::numeric_limits<double>::infinity();
+  const int sweeps =
+      bounded ? settings.max_iterations : std::min(settings.max_iterations, unbounded_iterations);
+  Convergence<Value> convergence;
+  convergence.amplification = amplification;
+  convergence.tolerance = settings.tolerance;
+  convergence.max_iterations = iterations_of(sweeps, shooters);
+  if (settings.method == SolverMethod::progressive && settings.max_shots)
+    convergence.max_iterations = *settings.max_shots;
+  return convergence;
+}
+
+/// The fraction done of the orders of magnitude by which the error has to fall: 0 to 1.
 template <typename Value>
 static double share_done(const Convergence<Value>& convergence) {
   const double first = worst(convergence.error_bounds.front()),
@@ -63,6 +86,8 @@ bool exhausted(const Convergence<Value>& convergence) {
   return worst(convergence.residuals.back()) <= least;
 }
 
+template Convergence<Rgb> stopping_rule(const SolverSettings&, const Rgb&, std::size_t);
+template Convergence<double> stopping_rule(const SolverSettings&, const double&, std::size_t);
 template void record(Convergence<Rgb>&, const Rgb&, const Rgb&);
 template void record(Convergence<double>&, const double&, const double&);
 template void record_again(Convergence<Rgb>&, const Rgb&, const Rgb&);

@@ -1,8 +1,9 @@
-// How far a solver has come: residuals, and the bound on the error that follows from them,
+// The stopping rule of the solvers: residuals, and the bound on the error that follows from them,
 //
-//   ||B - B_k|| <= G ||r_k||,     G of error_bound.h
+//   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||,     G of error_bound.h
 #pragma once
 
+#include "radiosity/solvers/solver_settings.h"
 #include "radiosity/transport/linear_system.h"
 #include "scenes/progress.h"
 
@@ -18,6 +19,12 @@ struct Convergence {
   std::vector<Value> residuals, error_bounds; ///< ||r_k|| / ||B_k|| and G times that
   Progress progress = {}; ///< told of every iterate
 };
+
+/// The rule for a solver whose iterations are sweeps (`shooters` 1), or shots of so many shooters in place of one
+/// sweep. `amplification`: G. Without a bound, G infinite, a hundred bounces show what light there is.
+template <typename Value>
+Convergence<Value> stopping_rule(const SolverSettings& settings, const Value& amplification,
+                                 std::size_t shooters);
 
 template <typename Value>
 void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);

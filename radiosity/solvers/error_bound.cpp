@@ -95,18 +95,18 @@ std::vector<Value> lit_rows(const LinearSystem<Value>& system) {
 template <typename Value>
 Value amplification_bound(const LinearSystem<Value>& system, int max_iterations) {
   constexpr double sharp = 0.1;   // of ||q||: leaves the bound within a factor (1 + q) / (1 - q)
-  constexpr int most_bounces = 4; // of the Neumann series, which suffices for dark rooms
+  constexpr int max_bounces = 4; // of the Neumann series, which suffices for dark rooms
   // A bound is worth some seconds, and not more than the solution.
-  constexpr double affordable_entries = 2e9, min_iterations = 40.0, most_iterations = 200.0;
+  constexpr double affordable_entries = 2e9, low = 40.0, high = 200.0;
   const double entries = 1.0 + double(system.transport.columns.size());
   const auto enough_iterations = std::min(
-      max_iterations, static_cast<int>(std::clamp(affordable_entries / entries, min_iterations,
-                                                  most_iterations)));
+      max_iterations, static_cast<int>(std::clamp(affordable_entries / entries, low,
+                                                  high)));
   const LinearSystem<Value> ones{system.transport, lit_rows(system), system.reflectance};
 
   // The sum of m bounces of ones leaves q = (rho T)^m 1.
   std::vector<Value> g = ones.source, q = reflected(system, g);
-  for (int m = 1; m < most_bounces && worst(maximum_norm(q)) > sharp; ++m) {
+  for (int m = 1; m < max_bounces && worst(maximum_norm(q)) > sharp; ++m) {
     for (std::size_t i = 0; i < g.size(); ++i)
       g[i] += q[i];
     q = reflected(system, q);

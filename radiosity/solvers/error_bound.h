@@ -1,5 +1,4 @@
-// How far an iterate can be from the solution, from its residual alone;
-// and whether there is a solution.
+// A bound of an iterate's error from its residual alone, and the test whether there is a solution.
 //
 // The error e = B - B_k solves (1 - rho T) e = r_k, so ||e|| <= G ||r_k|| with the amplification
 // G = ||(1 - rho T)^-1||, in the maximum norm. The inverse 1 + rho T + (rho T)^2 + ...
@@ -15,7 +14,7 @@
 
 namespace meninas {
 
-/// By row and channel: 1 where light arrives, from the source or from rows where it does;
+/// By row and channel: 1 where light arrives, directly or from rows where it does;
 /// 0 elsewhere, where B, its iterates and their residuals are 0.
 template <typename Value>
 std::vector<Value> lit_rows(const LinearSystem<Value>& system);

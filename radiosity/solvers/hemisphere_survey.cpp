@@ -29,7 +29,7 @@ bool gathers_emission(const LightScene& light) {
     return true;
   const auto& sides = light.mesh.sides;
   for (std::size_t s = 0; s < sides.size(); ++s)
-    if (sides[s].emission != Rgb(0.0) && light.from_source[s] == 0)
+    if (sides[s].emission != Rgb(0.0) && light.direct_sides[s] == 0)
       return true;
   return !light.emitters.empty() &&
          std::ranges::any_of(light.landing.faces,

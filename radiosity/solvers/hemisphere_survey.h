@@ -1,5 +1,4 @@
-// What the elements' own rays tell without being kept as rows:
-// what shooting has to know of every element, in memory linear in elements.
+// Statistics of the elements' rays that shooting needs. No rows are stored, so memory is linear in the elements.
 //
 // The rays are those of the rows of form_factors.h.
 // Where emission is gathered (ARCHITECTURE.md, path table:

@@ -12,7 +12,7 @@ namespace meninas {
 
 namespace {
 
-/// What is shot, and to whom.
+/// The scene in which light is shot.
 struct ShotScene {
   const LightScene& light;
   const HemisphereSurvey& survey;
@@ -26,7 +26,7 @@ Rgb landed_share(const RowClosure& row) {
   return glm::clamp(1.0 - lost / glm::max(Rgb(1e-9), 1.0 - Rgb(row.cut_light)), 0.0, 1.0);
 }
 
-/// How far a run is: residuals fall geometrically.
+/// The fraction of a run that is done: residuals fall geometrically.
 template <typename Value>
 double fraction_done(const Convergence<Value>& convergence) {
   const double by_shots =
@@ -38,7 +38,7 @@ double fraction_done(const Convergence<Value>& convergence) {
   return std::max(by_shots, std::log(first / now) / std::log(first / convergence.tolerance));
 }
 
-/// Who is told of shots.
+/// The callbacks that are told of shots.
 struct ShotEvents {
   const Progress& progress;
   const ShotWatch& watch;
@@ -74,7 +74,7 @@ ShotSolution run(const ShotScene& scene, const ShotProblem<Value>& problem, cons
   if (bound.unsolvable)
     convergence.max_iterations = 0;
   RayShots<Value> shots(scene.light, scene.survey, scene.rays);
-  const auto tell = told<Value>(events.watch);
+  const auto tell = observer_of<Value>(events.watch);
   shoot<Value>(shots, value_of<Value>(bound.kept), state, convergence,
                [&](const ShotState<Value>& now, const Convergence<Value>& reached) {
                  tell(now, reached);

@@ -22,13 +22,13 @@
 
 namespace meninas {
 
-/// H_ambient. Exposed areas, closure, U and rho by ElementId.
+/// H_ambient, W/m^2. Exposed areas (m^2), closure, U (W/m^2) and rho by ElementId.
 Rgb ambient_irradiance(const std::vector<double>& area, const std::vector<RowClosure>& closure,
                        const std::vector<Rgb>& unshot, const std::vector<Rgb>& reflectance);
 
 struct ShotSolution {
   SolverResult solver; ///< its radiosities are the reflected ones
-  std::vector<Rgb> arrived;
+  std::vector<Rgb> arrived; ///< irradiance by ElementId, W/m^2
   std::uint64_t rays_traced = 0;
 };
 

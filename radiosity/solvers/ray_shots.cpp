@@ -27,7 +27,7 @@ Vec2 start_of(const LightScene& light, std::uint32_t element, ContactMask covere
       .st;
 }
 
-/// What the coat above an element, if it is a mirror, lets out of the light of rays that leave it.
+/// Multiplies the light of rays that leave an element by the transmittance of its coat, if that is a mirror.
 void pass_coat(const LightScene& light, std::uint32_t element, const LaneDirections& local,
                LitPacket& packet) {
   const MaterialId coat = light.mesh.sides[index(light.mesh.side_of_element[element])].coat;

@@ -3,9 +3,9 @@
 // Block J shoots N rays. Ray r starts on the element of the block that the r-th of N equal parts
 // of its unshot power belongs to, at a point and into a cosine-distributed direction of Sobol's
 // sequence, so that the directions of the whole block and those of every element are spread evenly.
-// Rays are reflected exactly by mirrors (hemisphere_rays.h). What lands on i is power / A_i
-// of irradiance there. All rays of a shot carry together what its elements have to shoot, exactly;
-// what is cut at the last mirror is shared out among the rest.
+// Rays are reflected exactly by mirrors (hemisphere_rays.h). A ray that lands on i adds power / A_i
+// to its irradiance. All rays of a shot together carry the unshot power of its elements, exactly;
+// light that is cut at the last mirror is shared out among the rest.
 //
 // N is in proportion to the share of the unshot power in all there is:
 // rays of all shots carry about the same, so that the noise of an element's
@@ -34,7 +34,7 @@ public:
   std::uint64_t rays_traced() const { return rays_traced_; }
 
 private:
-  /// What a chunk of the rays has brought.
+  /// The result of a chunk of the rays.
   struct ChunkResult {
     std::vector<ElementHit> landings;
     Rgb kept{0.0}; ///< light that has left and was not cut

@@ -44,7 +44,7 @@ void relax(const LinearSystem<Value>& system, Relaxation order, std::vector<Valu
     const Value size = maximum_norm(x);
     record(convergence, kept * change, size);
 
-    // What may be the last word is measured.
+    // Iterates that may be the last are measured by their residual.
     if (finished(convergence))
       record_again(convergence, maximum_norm(residual_of(system, x)), size);
     if (watch.every > 0 && (finished(convergence) || convergence.iterations % watch.every == 0))

@@ -1,5 +1,5 @@
-// Between colours, as scenes have them (R, G, B of W/m^2), and the values a system is solved in:
-// one band where all is grey, else three. And what a solver says at its end.
+// Conversion between colours, as scenes have them (R, G, B of W/m^2), and the values a system is solved in:
+// one band where all is grey (R = G = B), else three; and the report of a solver at its end.
 #pragma once
 
 #include "radiosity/solvers/solver_settings.h"
@@ -35,12 +35,6 @@ std::vector<Rgb> colours_of(const std::vector<Value>& values) {
     colours.emplace_back(value);
   return colours;
 }
-
-/// A stopping rule for `shooters` (of sweeps: 1);
-/// without a bound of the error there is nothing to iterate for but what light there is.
-template <typename Value>
-Convergence<Value> stopping_rule(const SolverSettings& settings, const Value& amplification,
-                                 std::size_t shooters);
 
 template <typename Value>
 SolverEnd end_of(const Convergence<Value>& convergence);

@@ -1,5 +1,5 @@
-// Who shoots with whom in progressive radiosity, and who looks on (solvers/shooting.h).
-// Knows no geometry.
+// Groups of unknowns that shoot together in progressive radiosity (solvers/shooting.h), and the callback that
+// observes the state after shots. Knows no geometry.
 #pragma once
 
 #include "scenes/types.h"
@@ -11,7 +11,7 @@
 
 namespace meninas {
 
-/// Which unknowns shoot together, and how much each counts.
+/// The groups of unknowns that shoot together, and the weight of each unknown.
 struct Shooters {
   std::vector<std::uint32_t> of_unknown; ///< the shooter of each unknown
   std::vector<std::uint32_t> begin;      ///< by shooter, and one more: its first in `unknowns`

@@ -40,7 +40,7 @@ namespace {
 
 /// The values with the largest channel, each in units of `size`; the first of equals.
 template <typename Value>
-std::size_t place_of_most(const std::vector<Value>& values, const Value& size) {
+std::size_t place_of_max(const std::vector<Value>& values, const Value& size) {
   Value per_size(0.0); // of a channel without any light there is no most
   for (int band = 0; band < channel_count<Value>; ++band)
     if (channel(size, band) > 0.0)
@@ -61,17 +61,17 @@ template <typename Value>
 LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little) {
   const Value power = std::accumulate(state.left.begin(), state.left.end(), Value(0.0));
   if (state.norm == ShotNorm::power)
-    return {place_of_most(state.left, state.power), power};
+    return {place_of_max(state.left, state.power), power};
   const Value brightest = maximum_norm(state.unshot);
   if (worst(share_of(power, state.power)) > little)
-    return {place_of_most(state.left, state.power), brightest};
+    return {place_of_max(state.left, state.power), brightest};
   if (state.unshot.empty()) // a scene of mirrors alone
     return {0, brightest};
-  return {state.shooters.of_unknown[place_of_most(state.unshot, state.largest)], brightest};
+  return {state.shooters.of_unknown[place_of_max(state.unshot, state.largest)], brightest};
 }
 
 template <typename Value>
-AfterShot<Value> told(const ShotWatch& watch) {
+AfterShot<Value> observer_of(const ShotWatch& watch) {
   return [watch](const ShotState<Value>& state, const Convergence<Value>& reached) {
     const bool due = watch.every > 0 && state.shots > 0 && state.shots % watch.every == 0;
     if (due || (watch.every > 0 && finished(reached)))
@@ -114,8 +114,8 @@ template std::vector<Rgb> radiosities(const ShotState<Rgb>&);
 template std::vector<double> radiosities(const ShotState<double>&);
 template LeftToShoot<Rgb> left_to_shoot(const ShotState<Rgb>&, double);
 template LeftToShoot<double> left_to_shoot(const ShotState<double>&, double);
-template AfterShot<Rgb> told(const ShotWatch&);
-template AfterShot<double> told(const ShotWatch&);
+template AfterShot<Rgb> observer_of(const ShotWatch&);
+template AfterShot<double> observer_of(const ShotWatch&);
 template class ShotHistory<Rgb>;
 template class ShotHistory<double>;
 

@@ -98,7 +98,7 @@ concept ColumnSource = requires(Source& source, ShotState<Value>& state, std::si
   { source.shoot(shooter, state) } -> std::same_as<void>;
 };
 
-/// What there is left to shoot: who is next, and ||U||.
+/// The unshot light: the next shooter, and ||U||.
 template <typename Value>
 struct LeftToShoot {
   std::size_t shooter = 0;
@@ -123,9 +123,9 @@ private:
 template <typename Value>
 using AfterShot = std::function<void(const ShotState<Value>&, const Convergence<Value>&)>;
 
-/// What tells a watch.
+/// The callback after each shot that informs a watch.
 template <typename Value>
-AfterShot<Value> told(const ShotWatch& watch);
+AfterShot<Value> observer_of(const ShotWatch& watch);
 
 /// Shoots until the convergence has finished;
 /// its iterations are shots. `kept` is ||rho T||, by channel.

@@ -26,7 +26,7 @@ Parts parts_of(const ElementMesh& mesh, const HemisphereSurvey& survey,
   return parts;
 }
 
-/// Of a part, by channel: light in it never ends.
+/// Whether light in a part never ends, by channel.
 bool is_lit_trap(const Parts& parts, std::uint32_t part, int band) {
   constexpr double rounding = 1.2e-7; // of the rays' weights, which are floats
   return parts.lit[part][band] > 0.0 && parts.lost[part][band] <= rounding;
@@ -95,7 +95,7 @@ ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey
                          const Scattering& scattering) {
   constexpr double bright = 0.9; // of kappa: below it the bound costs few shots
   constexpr double better = 0.8;
-  constexpr int most_bounces = 8;
+  constexpr int max_bounces = 8;
   const Parts parts = parts_of(light.mesh, survey, source);
   const std::vector<Rgb> may = shooting(
       light.mesh, survey, parts, total_shares(scattering.reflectance, scattering.translucent));
@@ -107,7 +107,7 @@ ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey
     return result;
 
   std::vector<Rgb> q = survey.returned, sum(q.size(), Rgb(1.0));
-  for (int m = 2; m <= most_bounces; ++m) {
+  for (int m = 2; m <= max_bounces; ++m) {
     for (std::size_t e = 0; e < q.size(); ++e)
       sum[e] += q[e];
     Returned returned = returned_share(

@@ -1,5 +1,5 @@
-// How much light further shots can bring,
-// and whether they would ever end, from the elements' own rays.
+// A bound of the light that further shots can bring, and the test whether they would ever end, from the
+// elements' own rays.
 //
 // A unit of power that j shoots makes, with all that it becomes,
 // the power h_j = 1 + sum_i F_ji rho_i h_i. So with q_m = (F rho)^m 1,

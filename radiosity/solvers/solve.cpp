@@ -128,7 +128,7 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
   return solve_system<Rgb>({transport, source, reflectance}, settings, plan);
 }
 
-/// What has arrived by rows that are not mixed: H = T (B - U) of B = S + total H' so far.
+/// The irradiance by rows that are not mixed: H = T (B - U) of B = S + total H' so far.
 static ShotsSoFar unmixed(const Transport& transport, const std::vector<Rgb>& source,
                           const std::vector<Rgb>& total, ShotsSoFar shots) {
   for (std::size_t i = 0; i < source.size(); ++i)

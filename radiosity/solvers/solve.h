@@ -34,7 +34,7 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                    const std::vector<Rgb>& reflectance, const SolverSettings& settings = {},
                    const ShotPlan& plan = {});
 
-/// What rows scatter of what they receive: they reflect it, and translucent surfaces pass it on.
+/// The scattering of received light by rows: they reflect it, and translucent surfaces pass it on.
 struct Scattering {
   const std::vector<Rgb>& reflectance;
   const TranslucentLinks& translucent;

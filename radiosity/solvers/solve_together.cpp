@@ -25,7 +25,7 @@ LightByLamp light_of(const Matrix& matrix) {
           .values = {matrix.data(), matrix.data() + matrix.size()}};
 }
 
-/// Of every channel of every lamp.
+/// The values of every channel of every lamp, by column.
 Columns by_column(const Rgb& channels, Eigen::Index columns) {
   Columns values(columns);
   for (Eigen::Index c = 0; c < columns; ++c)
@@ -67,7 +67,7 @@ void add(Matrix& a, const Columns& factor, const Matrix& b) {
   a += (b.array().rowwise() * factor).matrix();
 }
 
-/// Which columns are further from their solution than asked, 1, and which not, 0.
+/// The stopping rule by column: 1 for columns further from their solution than asked, 0 for others.
 struct Goal {
   Columns amplification;
   double tolerance;

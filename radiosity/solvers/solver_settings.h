@@ -1,5 +1,5 @@
-// How the system B = S + rho T B is solved, and how the solution went (solve.h): the method, where it
-// stops, and the residual r_k = S + rho T B_k - B_k with the bound of the error at the end.
+// Settings and result of a solver of B = S + rho T B (solve.h): the method, the stopping rule, and the
+// residual r_k = S + rho T B_k - B_k with the bound of the error at the end.
 #pragma once
 
 #include "radiosity/solvers/shooters.h"
@@ -28,7 +28,7 @@ struct SolverSettings {
   std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
 };
 
-/// How `progressive` shoots, and who watches.
+/// The shooters of `progressive`, and its watch.
 struct ShotPlan {
   Shooters shooters; ///< none: every unknown for itself
   ShotWatch watch;

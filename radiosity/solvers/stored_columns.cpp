@@ -77,7 +77,7 @@ void shoot_stored(const LinearSystem<Value>& system, const ShotPlan& plan, std::
   ShotState<Value> state =
       unshot_state(shooters, system.source, system.reflectance, ShotNorm::maximum);
   StoredColumns<Value> columns(system.transport);
-  shoot(columns, contraction(system), state, convergence, told<Value>(plan.watch));
+  shoot(columns, contraction(system), state, convergence, observer_of<Value>(plan.watch));
   x = radiosities(state);
   record_again(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
 }

@@ -17,7 +17,7 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_elements = 2000;
+constexpr std::size_t max_elements = 2000;
 
 /// Every mirror has its worlds here, however small it is.
 constexpr MirrorSettings all_mirrors{.max_mirrors = 1 << 20, .smallest_share = 0.0};
@@ -55,7 +55,7 @@ std::vector<Face> faces_of(const ElementMesh& mesh, std::size_t element) {
   return faces;
 }
 
-/// What light can end on, in groups: every element, then all that is black, then every mirror.
+/// The surfaces that light can end on, in groups: every element, then all that is black, then every mirror.
 struct Surroundings {
   std::vector<Face> blockers;
   MirrorSet mirrors;
@@ -115,7 +115,7 @@ std::optional<KaleidoscopeCell> kaleidoscope_cell_of(const Surroundings& around,
   return find_kaleidoscope(whole, {});
 }
 
-/// What the rows share.
+/// The data that the rows share.
 struct AnalyticAssembly {
   const LightScene& light;
   const Surroundings& around;
@@ -126,7 +126,7 @@ struct AnalyticAssembly {
 };
 
 /// Whether nothing but black is seen from the middle of the part: something stands on it.
-/// What shows itself only to the outside of a closed scene sees nothing at all.
+/// A part that faces only the outside of a closed scene sees nothing at all.
 bool is_covered(const AnalyticAssembly& assembly, const Face& part) {
   constexpr double whole = 1.0 - 1e-6;
   WalkSettings real_world;
@@ -227,7 +227,7 @@ AnalyticAssembly make_assembly(const LightScene& light, const Surroundings& arou
   assembly.extended.accuracy = settings.accuracy;
   assembly.extended.max_depth = settings.max_bounces;
   assembly.extended.listing = WorldListing::totals;
-  assembly.extended.shadow_lines /= std::max<std::size_t>(1, element_count(light.mesh));
+  assembly.extended.max_discontinuity_lines /= std::max<std::size_t>(1, element_count(light.mesh));
   assembly.depth_capped = settings.max_bounces < FormFactorSettings{}.max_bounces;
   assembly.closed = is_closed(light.scene, 0.5 * tolerance);
   assembly.cell = kaleidoscope_cell_of(around, tolerance);
@@ -260,12 +260,12 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
   if (light.sky != nullptr)
     throw UsageError(light.scene.file, "--form-factors analytic knows how much of the sky is seen, "
                                        "not where: rays or hemicubes do");
-  if (size > most_elements)
+  if (size > max_elements)
     throw UsageError(
         light.scene.file,
         fmt::format("--form-factors analytic is for up to {} elements, and here are {}: its time "
                     "grows with their square; larger elements (--element-size) or rays would do",
-                    most_elements, size));
+                    max_elements, size));
   const Surroundings around = surroundings_of(light);
   const AnalyticAssembly assembly = make_assembly(light, around, settings);
   FormFactors result;

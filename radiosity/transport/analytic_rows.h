@@ -1,8 +1,8 @@
 // Transport between elements without sampling:
 // the rows of Eq. 1 by the analytic method (`analytic`).
 //
-// Row i is  sum_w tau_w F^w_ij, F^w_ij the mean over the exposed part of element i of the point form factor to the visible parts of the
-// image of j (point_worlds.h), integrated adaptively or in closed form (extended_form_factor.h).
+// Row i is  sum_w tau_w F^w_ij, F^w_ij the mean over the exposed part of element i of the point form factor to the
+// visible parts of the image of j (point_worlds.h), integrated adaptively or in closed form (extended_form_factor.h).
 // Worlds are followed until what they may bring has no weight beside the wanted accuracy,
 // which is relative to the row's light, and again relative to the light of the emitters in it:
 // an element's direct irradiance, sum_j F_ij E_j, is as exact as its row.

@@ -64,7 +64,7 @@ bool is_enclosed_cell(const LightScene& light, const RaySource& source, std::uin
   });
 }
 
-/// Those that share an edge with it; at the border, itself instead.
+/// The cells that share an edge with it; at the border, itself instead.
 std::array<std::uint32_t, 4> cells_beside(std::uint32_t cell) {
   const std::uint32_t i = cell / 8, j = cell % 8;
   return {i > 0 ? cell - 8 : cell, i < 7 ? cell + 8 : cell, j > 0 ? cell - 1 : cell,
@@ -102,8 +102,8 @@ CountsOfCells counts_of(const CellCounts& counts, ContactMask cells) {
 }
 
 /// Adds the covered places of the cells at the foot.
-void add_places_at_foot(const CellCounts& counts, Covered& covered) {
-  const ContactMask foot = cells_at_foot(covered.cells);
+void add_boundary_places(const CellCounts& counts, Covered& covered) {
+  const ContactMask foot = boundary_cells(covered.cells);
   const double elsewhere = counts_of(counts, ~(foot | covered.cells)).black_share();
   const CountsOfCells at_foot = counts_of(counts, foot);
   const double share = elsewhere < 1.0
@@ -115,7 +115,7 @@ void add_places_at_foot(const CellCounts& counts, Covered& covered) {
 
 } // namespace
 
-ContactMask cells_at_foot(ContactMask covered) {
+ContactMask boundary_cells(ContactMask covered) {
   constexpr ContactMask lowest = 0x0101010101010101ULL, highest = lowest << 7U;
   ContactMask around = covered | (covered & ~highest) << 1U | (covered & ~lowest) >> 1U;
   around |= around << 8U | around >> 8U;
@@ -190,14 +190,14 @@ Covered find_covered(const LightScene& light, const HemisphereSamples& net, cons
   }
   covered.exposed = 1.0F - static_cast<float>(std::popcount(covered.cells)) / 64.0F;
   if (covered.cells != 0 && covered.cells != wholly_covered)
-    add_places_at_foot(counts, covered);
+    add_boundary_places(counts, covered);
   return covered;
 }
 
 NumberedPlace next_open_point(const LightScene& light, const ReceiverArea& receiver,
                             ContactMask covered, std::uint32_t seed, std::uint32_t first) {
   constexpr int max_looked_at = 64;
-  const ContactMask foot = cells_at_foot(covered);
+  const ContactMask foot = boundary_cells(covered);
   for (int looked_at = 0;; ++first) {
     const Vec2 st(sobol2(first, seed, SobolPair::first));
     if (contains(covered, st))

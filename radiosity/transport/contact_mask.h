@@ -2,7 +2,11 @@
 //
 // It is found by cells, from the rays of the receiver. Cells on the boundary of a contact are sampled
 // point by point, so that direct and gathered light are means over the open part alone, which is
-// what others see of the receiver.
+// what others see of the receiver. Of its 64 cells, with k covered ones and f on their boundary,
+//
+//   exposed = 1 - (k + s f) / 64,   s = max(0, (b_f - b_0) / (1 - b_0))      (dimensionless)
+//
+// b is the share of rays that meet a black back at once: b_f in the boundary cells, b_0 in the open cells elsewhere.
 #pragma once
 
 #include "radiosity/scene/light_scene.h"
@@ -25,7 +29,7 @@ inline bool contains(ContactMask cells, Vec2 st) {
 }
 
 /// The open cells that touch a covered one, also by a corner: a contact may cross them.
-ContactMask cells_at_foot(ContactMask covered);
+ContactMask boundary_cells(ContactMask covered);
 
 struct Covered {
   ContactMask cells = 0;

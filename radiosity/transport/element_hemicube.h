@@ -17,7 +17,7 @@
 
 namespace meninas {
 
-/// The centre of the element or of its exposed part; nothing when all is covered.
+/// The centre of the element or of its exposed part, metres; nothing when all is covered.
 std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverArea& element,
                                         ContactMask covered);
 

@@ -176,7 +176,7 @@ std::vector<std::byte> header_bytes(std::uint64_t kind, const FactorKey& key) {
   return bytes;
 }
 
-/// What comes after the header of a file of that kind, undamaged and made from `key`.
+/// The content after the header of a file of that kind, undamaged and made from `key`.
 Reader checked(const std::filesystem::path& file, std::span<const std::byte> bytes,
                std::uint64_t kind, const FactorKey& key) {
   Reader reader{file, bytes};

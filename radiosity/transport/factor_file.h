@@ -1,9 +1,8 @@
 // Form factors as a file, so that a scene under other light is only solved again.
 //
-// Transport depends on where surfaces are, what mirrors reflect, how the scene is divided
-// and how rays are drawn, and not on what emits how much nor on diffuse reflectances:
-// those may change, as may cameras and names. What must not change is hashed part by part,
-// so that a refusal can say what did. Direct light is computed anew.
+// Transport depends on the geometry, the reflectances of mirrors, the mesh and the sampling of rays. It does not
+// depend on emission and diffuse reflectances: those may change, as may cameras and names. The parts it depends on
+// are hashed one by one, so that a refusal can name the part that changed. Direct light is computed anew.
 //
 // Layout, little-endian: magic, version of the program, the hashes,
 // the arrays of FormFactors each with its length, and at the end a hash of all bytes before it.
@@ -35,8 +34,8 @@ void write_factors(const std::filesystem::path& file, const FormFactors& factors
                    const FactorKey& key);
 
 /// Throws InputError when the file is damaged,
-/// of another version of the program, or made from something else than `key`. What it returns can be solved
-/// with, whatever the file says: a row for each of the elements, columns among them, numbers that are finite.
+/// of another version of the program, or made from something else than `key`. The result is valid for a solver,
+/// whatever the file says: a row for each of the elements, columns among them, numbers that are finite.
 FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key, std::size_t elements);
 
 } // namespace meninas

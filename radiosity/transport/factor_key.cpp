@@ -25,7 +25,7 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
   return hash.value();
 }
 
-/// What light meets in glass and on coats is part of the transport.
+/// Films of glass and coats are part of the transport.
 void add_film(ContentHash& hash, const ThinFilm& film) {
   if (film.share > 0.0)
     hash.add(Rgb(film.share, film.ior, film.thickness));
@@ -44,7 +44,7 @@ void add_glass(ContentHash& hash, const Bsdf& glass) {
   hash.add(static_cast<std::uint64_t>(glass.pane.faces));
 }
 
-/// Of glass: which image, and how it lies.
+/// The texture of glass: its image, and its place on the surface.
 void add_texture(ContentHash& hash, const Scene& scene, const std::optional<TextureUse>& use) {
   if (!use)
     return;

@@ -1,4 +1,4 @@
-// What form factors depend on, as hashes: rows T_ij that are kept (factor_file.h) are those of a scene and settings
+// Hashes of everything form factors depend on: stored rows T_ij (factor_file.h) are those of a scene and settings
 // with the same key, but for one chance in 2^64. They do not depend on emission and diffuse reflectances.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace meninas {
 
-/// What form factors were made from.
+/// The hashes of the parts that form factors were made from.
 struct FactorKey {
   std::uint64_t geometry = 0; ///< vertices, triangles, which sides of them are there
   std::uint64_t mirrors =

@@ -34,7 +34,7 @@ struct Transport {
   std::vector<float> weights; ///< entry k, band b at [k * bands + b]: sum_w tau_w F^w
 };
 
-/// What became of the rays of each row, as fractions of all, and of the light they carry:
+/// The ends of the rays of each row, as fractions of all rays, and of the light they carry:
 /// landed + escaped + black + mirror_absorbed + cut = 1 in either.
 /// The light that is cut is shared out among the rest in proportion.
 struct RowClosure {
@@ -66,7 +66,7 @@ inline RowRange rows_of_part(std::size_t rows, std::size_t number, std::size_t c
   return {first, rows * (number + 1) / count - first};
 }
 
-/// What a row may speak of besides an element:
+/// The receivers of rows that are not elements:
 /// a part of a surface (hemisphere_samples.h), by row. Called from any thread.
 using RowReceiver = std::function<ReceiverArea(std::size_t row)>;
 

@@ -138,7 +138,7 @@ void append_rows(const RowList& more, Transport& transport) {
   transport.weights.insert(transport.weights.end(), more.weights.begin(), more.weights.end());
 }
 
-/// What the tasks share.
+/// The data that the tasks share.
 struct Assembly {
   const LightScene& light;
   const FormFactorSettings& settings;
@@ -158,7 +158,7 @@ struct Assembly {
 constexpr int rays_of_cluster = 4; // that of 32 faces
 
 const HemisphereSamples& net_of(const Assembly& assembly, const ReceiverArea& element) {
-  return element.few_rays ? assembly.few : element.faces.empty() ? assembly.net : assembly.many;
+  return element.reduced_rays ? assembly.few : element.faces.empty() ? assembly.net : assembly.many;
 }
 
 void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t seed,
@@ -259,7 +259,7 @@ FormFactors assemble_some_rows(const LightScene& light, RowRange rows,
                                const FormFactorSettings& settings, const Progress& progress) {
   const auto element = [&](std::size_t row) {
     ReceiverArea receiver = receiver_of(light, static_cast<ElementId>(row));
-    receiver.few_rays = has_few_rays(light, static_cast<ElementId>(row));
+    receiver.reduced_rays = has_reduced_rays(light, static_cast<ElementId>(row));
     return receiver;
   };
   FormFactors factors = assemble(light, rows, element, settings, progress);
@@ -281,7 +281,7 @@ static FormFactors assemble(const LightScene& light, RowRange range, const RowRe
   const Assembly assembly{light,
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
-                          make_direction_net(few_of(settings.rays, 16)),
+                          make_direction_net(reduced_count(settings.rays, 16)),
                           is_finely_tessellated(light.mesh)
                               ? make_direction_net(rays_of_cluster * settings.rays)
                               : HemisphereSamples{},

@@ -28,8 +28,8 @@ namespace meninas {
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
 
-/// The rows of so many elements from `first` on, as a table of these alone: the same bits as in that of all.
-/// What is by ElementId there is by row. Precondition: not by the analytic method.
+/// The rows of a range of elements, as a table of their own: the same bits as in the table of all.
+/// Members that are by ElementId there are by row here. Precondition: not by the analytic method.
 FormFactors assemble_some_rows(const LightScene& light, RowRange rows,
                                const FormFactorSettings& settings, const Progress& progress = {});
 

@@ -2,7 +2,7 @@
 // from the receiver, from where something has shot them, or from mirrors.
 //
 // All say the weight of lane k, its throughput and its world, and all that it carries.
-// What glass and coats do to the throughput of a leg:
+// Glass and coats change the throughput of a leg:
 //
 //   into the receiver's coat   tau_0 = (1 - R(cos)) / (1 - R_mean)
 //   through d metres of glass  tau *= attenuation_color^(d / attenuation_distance)
@@ -25,7 +25,7 @@ inline std::uint32_t seed_of(const Point3& point) {
               std::bit_cast<std::uint32_t>(rounded.z));
 }
 
-/// What a ray carries besides its geometry.
+/// The state of a ray from leg to leg.
 struct Carried {
   glm::dvec3 origin, direction;
   float weight;
@@ -64,7 +64,7 @@ struct FirstLegs {
 template <typename Weights, typename LetIn>
 FirstLegs(const RayPacket&, Weights, LetIn, std::uint32_t) -> FirstLegs<Weights, LetIn>;
 
-/// What the receiver's coat lets in, by lane.
+/// The transmittance of the receiver's coat, by lane.
 inline std::array<glm::vec3, packet_size>
 let_in_by(const Bsdf& coat, const RaySource& source, const RayPacket& packet) {
   std::array<glm::vec3, packet_size> light{};
@@ -123,9 +123,9 @@ struct MirroredLegs {
   }
 };
 
-/// What a leg that has ended in lane k leaves of the light on it.
+/// The transmittance of a leg that has ended in lane k.
 template <typename Legs>
-glm::vec3 left_on_leg(const LightScene& light, const Legs& legs, const HitPacket& hits,
+glm::vec3 transmittance_on_leg(const LightScene& light, const Legs& legs, const HitPacket& hits,
                       std::uint32_t k) {
   const Vec3 direction = legs.carried(k).direction;
   const double metres =
@@ -134,7 +134,7 @@ glm::vec3 left_on_leg(const LightScene& light, const Legs& legs, const HitPacket
                        metres);
 }
 
-/// What a ray that escapes finds of the sky, and who owns it.
+/// Adds the radiance of the sky that an escaping ray finds, apart where a portal owns it.
 inline void meet_sky(const LightScene& light, const Carried& ray, const glm::vec3& left, Ends& ends) {
   const RayFrame& frame = light.rays.frame();
   // Panes on the way are passed straight: the whole of the last leg counts, as for shadow rays.
@@ -142,7 +142,7 @@ inline void meet_sky(const LightScene& light, const Carried& ray, const glm::vec
   const bool owned =
       !light.portals.empty() && ray.world != none<WorldId> && !is_by_solids(ray.world) &&
       last_portal(light.portals, from, ray.direction,
-                  least_height(light.surfaces.tolerance, ray.reflections > 0)) != no_portal;
+                  min_height(light.surfaces.tolerance, ray.reflections > 0)) != no_portal;
   if (owned)
     ends.owned_light += left;
   if (light.sky != nullptr)

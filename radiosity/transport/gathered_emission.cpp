@@ -11,7 +11,7 @@ std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& f
   std::vector<Rgb> whole(mesh.area.size(), Rgb(0.0)), deep = whole;
   for (std::size_t e = 0; e < mesh.area.size(); ++e) {
     const SideId side = mesh.side_of_element[e];
-    (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
+    (light.direct_sides[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
   }
 
   std::vector<Rgb> gathered(factors.transport.size, Rgb(0.0));
@@ -37,7 +37,7 @@ LightByLamp gathered_by_lamp(const LightScene& light, const FormFactors& factors
     const std::uint32_t lamp = light.lamps.of_side[index(side)];
     if (lamp == no_lamp)
       continue;
-    LightByLamp& emission = light.from_source[index(side)] != 0 ? deep : whole;
+    LightByLamp& emission = light.direct_sides[index(side)] != 0 ? deep : whole;
     for (int band = 0; band < 3; ++band)
       emission[e][3 * std::size_t{lamp} + static_cast<std::size_t>(band)] = mesh.emission[e][band];
   }

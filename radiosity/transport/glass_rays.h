@@ -1,4 +1,4 @@
-// What becomes of a ray at the face of a solid of glass, in pass one.
+// Reflection and refraction of a ray at the face of a solid of glass, in pass one.
 //
 //   R = F(cos), T = (1 - F) t,   sin = n sin' (Snell), all is reflected beyond sin' = 1,   a^(metres / distance) on the way inside
 //
@@ -6,7 +6,7 @@
 // scenes/materials/refraction.h. Nothing is said of light inside but where it comes out.
 // A ray goes one of the two ways, by the chance that panes have (hemisphere_rays.h).
 //
-// Limits: solids are polished, however rough they are said to be.
+// Limits: the roughness of solids is ignored.
 // Where solids touch or lie in one another a face counts as one between its solid and air.
 // Chains of more than `max_meetings` meetings are cut:
 // light that total reflection would keep inside for ever.
@@ -47,8 +47,8 @@ std::optional<Direction> refracted(const LightScene& light, TriangleId triangle,
 /// The solid behind a face.
 MaterialId medium_behind(const LightScene& light, TriangleId triangle, bool front);
 
-/// What is left of a ray's light on a leg that ends on a triangle, or none:
-/// `before` is the solid that it was refracted into.
+/// The transmittance, by channel, of a leg that ends on a triangle, or none:
+/// `before` is the solid that the ray was refracted into.
 glm::vec3 left_by_solid(const LightScene& light, TriangleId met, bool front, MaterialId before,
                         double metres);
 

@@ -25,7 +25,7 @@
 
 namespace meninas {
 
-/// T of the cells of the top and S of those of a side, by the coordinates above.
+/// T of the cells of the top and S of those of a side, by the coordinates above; form factors, dimensionless.
 double top_corner_integral(double x, double y);
 double side_corner_integral(double y, double z);
 

@@ -51,7 +51,7 @@ struct LitPacket {
 
 /// Traces them on through mirrors to their ends:
 /// landings and ends speak of the light the rays left with times tau.
-/// What mirrors absorb is not counted.
+/// Light absorbed by mirrors is not counted.
 void follow_light(const LightScene& light, std::span<const LitPacket> packets, std::uint32_t seed,
                   const FormFactorSettings& settings, GatherWorkspace& workspace);
 
@@ -92,7 +92,7 @@ ReceiverArea part_of_side(const LightScene& light, const MeshSide& side, bool tr
 /// emitters gathered as a whole, and the others beyond the enumerated worlds.
 inline Rgb gathered_emission(const LightScene& light, const ElementHit& landing) {
   const SideId side = light.mesh.side_of_element[landing.element];
-  const bool owned = light.from_source[index(side)] != 0 && landing.world != none<WorldId>;
+  const bool owned = light.direct_sides[index(side)] != 0 && landing.world != none<WorldId>;
   return owned ? Rgb(0.0) : light.mesh.emission[landing.element] * Rgb(landing.light);
 }
 

@@ -1,6 +1,7 @@
 // The linear system of radiosity for solvers:
 // x = S + rho T x, for all channels at once (Value = Rgb) or a grey one (Value = double).
 //
+// x and S in W/m^2, rho and T dimensionless.
 // Channels never mix: arithmetic on Value is by channel, and so are norms and inner products.
 // Sums run in a fixed order.
 #pragma once

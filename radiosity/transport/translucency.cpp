@@ -65,7 +65,7 @@ private:
   Overlaps overlaps_;
 };
 
-/// What lies behind elements, and how much of them over it, m^2.
+/// The elements behind others, with the area, m^2, over which they overlap.
 struct Behind {
   std::uint32_t element, behind;
   double area;

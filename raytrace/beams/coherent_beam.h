@@ -25,7 +25,7 @@ struct FrustumLeg {
   std::uint32_t first = 0, last = 0; ///< pieces
 };
 
-/// What all camera rays of some pixels come to.
+/// The path and the hit that all camera rays of some pixels share.
 struct CoherentBeam {
   std::uint32_t leg = 0;
   std::uint32_t triangle = index(none<TriangleId>); ///< of the face, or nothing

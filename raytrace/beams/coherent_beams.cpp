@@ -101,7 +101,7 @@ struct Search {
   bool is_first(const FrustumPiece& piece, const PictureBlock& block, std::size_t begin) const {
     return std::ranges::all_of(std::span(sure.in_block).subspan(begin), [&](std::uint32_t k) {
       const FrustumPiece& other = sure.pieces[k];
-      // Of a sheet, the side that faces the rays is met.
+      // Rays meet the side of a sheet that faces them.
       return &other == &piece ||
              (other.face->plane == piece.face->plane && other.face->single_sided &&
               sees_back(other.view, block)) ||
@@ -155,9 +155,9 @@ struct Search {
       mark(block, at, met, front);
       return true;
     }
-    constexpr std::int32_t most_mirrors = 12;
+    constexpr std::int32_t max_mirrors = 12;
     const FrustumLeg& leg = sure.legs[at];
-    if (leg.mirrors == most_mirrors ||
+    if (leg.mirrors == max_mirrors ||
         !goes_on(context, leg.mirrors + 1, face.reflectance * leg.throughput, 1.0F))
       return true;
     const std::uint32_t behind = leg_behind(at, face);
@@ -198,7 +198,7 @@ struct Search {
   }
 };
 
-/// Those of the camera, at (x, y) pixels of the tile.
+/// The rays of the camera, at (x, y) pixels of the tile.
 PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
                     const RenderSettings& settings) {
   const Vec2 pixel = 1.0 / Vec2(settings.width, settings.height);

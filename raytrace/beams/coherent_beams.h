@@ -5,8 +5,8 @@
 // else reaches into it lies behind the plane of the face, all rays of the block meet it.
 // If it is a mirror, the frustum is reflected and asked the same behind it.
 // A block that is not sure of its path is divided, down to a few rays, which are traced then.
-// Which faces reach into the frustum of a tile is found once for every leg (frustum.h),
-// with how its rays see them (face_view.h), and each block sorts out those of its parent.
+// The faces that reach into the frustum of a tile are found once for every leg (frustum.h),
+// with their view from its rays (face_view.h), and each block sorts out those of its parent.
 //
 // The unfolded ray through the point (x, y) of the picture is o + t d, o and d affine in (x, y),
 // one of them constant. It lands where n . (o + t d) = c, so that the weights of a triangle's

@@ -14,7 +14,7 @@ AffineForm operator+(const AffineForm& a, const AffineForm& b) {
 }
 AffineForm operator*(double k, const AffineForm& a) { return {k * a.constant, k * a.x, k * a.y}; }
 
-/// Of which one is constant.
+/// The product of two forms, one of which is constant.
 AffineForm operator*(const AffineForm& a, const AffineForm& b) {
   return {a.constant * b.constant, a.constant * b.x + a.x * b.constant,
           a.constant * b.y + a.y * b.constant};

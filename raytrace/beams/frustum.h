@@ -17,7 +17,7 @@ struct LightScene;
 
 inline constexpr double frustum_margin = 1e-5; ///< floats are rounded by 6e-8
 
-/// What is inside: n . p >= offset.
+/// The points p with n . p >= offset are inside.
 struct HalfSpace {
   Direction normal{0.0};
   double offset = 0.0;

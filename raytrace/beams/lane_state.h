@@ -1,4 +1,4 @@
-// What the lanes of a packet carry: camera rays their pixel and sample, specular rays their path so far.
+// The state of the lanes of a packet: pixel and sample of camera rays, the path so far of specular rays.
 #pragma once
 
 #include "raytrace/pixels/render_context.h"
@@ -17,8 +17,8 @@ struct alignas(64) MirrorBeam {
   std::int32_t bounces = 0; ///< off mirrors
 };
 
-/// What the rays of a packet carry: camera rays their pixel and sample,
-/// and what mirrors they have met together; specular rays their record.
+/// The data of the rays of a packet: for camera rays their pixel and sample and the mirrors they have met
+/// together; for specular rays their record.
 struct LaneState {
   const std::uint32_t* pixel;
   const SpecularRay* specular; ///< of lane 0; null for camera rays
@@ -27,7 +27,7 @@ struct LaneState {
   const std::uint32_t* number;      ///< of the sample in its pixel; null for specular rays
   const MirrorBeam* beam = nullptr; ///< of camera rays behind mirrors
 
-  /// Of the samples taken where lane k lands.
+  /// The key of the samples taken where lane k lands.
   std::uint32_t key(std::uint32_t k, std::uint32_t seed) const {
     return specular ? specular[k].key : hash(sample[k], pixel[k], seed);
   }
@@ -56,7 +56,7 @@ struct LandedLane {
 };
 
 /// The face of its triangle that lane k has hit.
-inline const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits,
+inline const FaceRecord& face_of(const ElementLookup& landing, const HitPacket& hits,
                                  std::uint32_t k) {
   return landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
 }

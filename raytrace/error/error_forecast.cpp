@@ -20,48 +20,48 @@ constexpr double samples_of_vertices = 200.0;
 double samples_a_pixel(const MeasuredRun& run, int samples) {
   double mean = std::min(run.samples_a_pixel, double(samples));
   std::size_t round = 0;
-  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+  for (int taken = run.parameters.samples; taken < samples; taken *= 4)
     mean += run.uncertain[std::min(round++, run.uncertain.size() - 1)] * 3.0 * taken;
   return mean;
 }
 
-/// Of the square of what camera rays are off by;
+/// The factor on the squared error of camera rays;
 /// nothing is left to gain where no pixel would take more.
-double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
-  const int samples = knobs.samples;
-  const double exponent = knobs.term == DiffuseTerm::gather ? of_noise : at_edges;
-  if (samples < run.knobs.samples)
+double pixel_decline(const MeasuredRun& run, const Parameters& parameters) {
+  const int samples = parameters.samples;
+  const double exponent = parameters.term == DiffuseTerm::gather ? of_noise : at_edges;
+  if (samples < run.parameters.samples)
     return std::pow(samples_a_pixel(run, samples) / run.samples_a_pixel, -exponent);
   double decline = 1.0;
   std::size_t round = 0;
-  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+  for (int taken = run.parameters.samples; taken < samples; taken *= 4)
     decline *= run.uncertain[std::min(round++, run.uncertain.size() - 1)] > 0.0
                    ? std::pow(4.0, -exponent)
                    : 1.0;
   return decline;
 }
 
-/// What one hit takes that gathers with rays of its own.
+/// The cost of one hit that gathers with rays of its own.
 double gather_hit_cost(const MeasuredRun& run) {
   constexpr double source_rays = 128.0; // that cost as much as direct light
-  return run.gather_cost * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
+  return run.gather_cost * (source_rays + rays_of_a_hit) / (source_rays + run.parameters.rays);
 }
 
 /// Whether elements or rays change.
-bool solves_again(const MeasuredRun& run, const Parameters& knobs) {
-  return knobs.elements != run.knobs.elements || knobs.rays != run.knobs.rays;
+bool solves_again(const MeasuredRun& run, const Parameters& parameters) {
+  return parameters.elements != run.parameters.elements || parameters.rays != run.parameters.rays;
 }
 
-double pass_two_cost(const MeasuredRun& run, const Parameters& knobs) {
-  const double samples = samples_a_pixel(run, knobs.samples);
+double pass_two_cost(const MeasuredRun& run, const Parameters& parameters) {
+  const double samples = samples_a_pixel(run, parameters.samples);
   const double share = samples / run.samples_a_pixel;
-  if (knobs.term == run.knobs.term)
+  if (parameters.term == run.parameters.term)
     return run.pass_two_cost *
-           (knobs.term == DiffuseTerm::direct
-                ? (solves_again(run, knobs) ? samples_of_vertices + samples : samples) /
+           (parameters.term == DiffuseTerm::direct
+                ? (solves_again(run, parameters) ? samples_of_vertices + samples : samples) /
                       (samples_of_vertices + run.samples_a_pixel)
                 : share);
-  const double hits = run.pixels * (knobs.term == DiffuseTerm::direct
+  const double hits = run.pixels * (parameters.term == DiffuseTerm::direct
                                         ? vertices_of_a_pixel * run.direct_cost
                                         : samples * gather_hit_cost(run));
   return share * run.pass_two_cost + hits;
@@ -79,8 +79,8 @@ double samples_drawn_again(int samples) {
   return groups > 0.0 ? drawn / groups : min_drawn;
 }
 
-/// What finding out the error takes.
-double estimate_cost(const MeasuredRun& run, const Parameters& knobs) {
+/// The cost of estimating the error.
+double estimate_cost(const MeasuredRun& run, const Parameters& parameters) {
   constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
   constexpr double source_rays = 128.0;        // that cost as much as direct light
   const auto pixels = [](double elements) {
@@ -91,8 +91,8 @@ double estimate_cost(const MeasuredRun& run, const Parameters& knobs) {
            of_camera_rays * samples_drawn_again(k.samples) /
                samples_drawn_again(Parameters{}.samples);
   };
-  return run.estimate_cost * pixels(knobs.elements) / pixels(run.knobs.elements) *
-         of_a_pixel(knobs) / of_a_pixel(run.knobs);
+  return run.estimate_cost * pixels(parameters.elements) / pixels(run.parameters.elements) *
+         of_a_pixel(parameters) / of_a_pixel(run.parameters);
 }
 
 } // namespace
@@ -102,7 +102,7 @@ double estimate_cost(const MeasuredRun& run, const Parameters& knobs) {
 static bool tells_of_division(const MeasuredRun& coarse, const MeasuredRun& fine) {
   constexpr double share = 0.5; // of the growth that was wanted, in logarithms
   return std::log(fine.divided / coarse.divided) >=
-         share * std::log(fine.knobs.elements / coarse.knobs.elements);
+         share * std::log(fine.parameters.elements / coarse.parameters.elements);
 }
 
 double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine) {
@@ -110,7 +110,7 @@ double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine
   const auto rest = [&](const MeasuredRun& run) {
     return square(run.error.mesh) - square(run.error.mesh_direct);
   };
-  // Where nearly all is edges the difference is what neither is known to.
+  // Where the error is nearly all edges, the difference is below the accuracy of both.
   constexpr double known = 0.25;
   for (const MeasuredRun* run : {&coarse, &fine})
     if (!(rest(*run) > known * square(run->error.mesh)))
@@ -121,24 +121,24 @@ double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine
   return std::clamp(std::log(rest(coarse) / rest(fine)) / growth, 0.0, 1.0);
 }
 
-/// What the field is off by, squared.
-static double field_error(const MeasuredRun& run, const Parameters& knobs) {
+/// The squared error of the field.
+static double field_error(const MeasuredRun& run, const Parameters& parameters) {
   const PictureError& e = run.error;
   const auto square = [](double x) { return x * x; };
-  const double elements = knobs.elements / run.knobs.elements,
-               rays = double(knobs.rays) / run.knobs.rays;
-  if (knobs.term == DiffuseTerm::gather) {
-    if (run.knobs.term == DiffuseTerm::gather)
+  const double elements = parameters.elements / run.parameters.elements,
+               rays = double(parameters.rays) / run.parameters.rays;
+  if (parameters.term == DiffuseTerm::gather) {
+    if (run.parameters.term == DiffuseTerm::gather)
       return square(e.mesh) * std::pow(elements, -run.mesh_exponent);
     constexpr double noise_of_interpolated =
         4.0 / 9.0; // of a vertex's: raytrace/error/picture_error.h
     return square(e.form_factors) / noise_of_interpolated *
-           std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);
+           std::pow(run.parameters.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, parameters.samples);
   }
   // Edges stay, or become exact.
-  // Of what is hardly more than they are, the rest is not known to less than a share of them.
+  // If the whole is hardly more than they are, the rest is not known to less than a share of them.
   constexpr double unknown = 0.1;
-  const bool edges = knobs.term == run.knobs.term;
+  const bool edges = parameters.term == run.parameters.term;
   const double direct = square(e.mesh_direct);
   const double rest =
       std::max(square(e.mesh) - direct, edges ? 0.0 : square(unknown * e.mesh_direct));
@@ -147,20 +147,20 @@ static double field_error(const MeasuredRun& run, const Parameters& knobs) {
          square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
 }
 
-Forecast forecast(const MeasuredRun& run, const Parameters& knobs) {
+Forecast forecast(const MeasuredRun& run, const Parameters& parameters) {
   const PictureError& e = run.error;
-  const double elements = knobs.elements / run.knobs.elements;
+  const double elements = parameters.elements / run.parameters.elements;
   const auto square = [](double x) { return x * x; };
   const double squared =
-      field_error(run, knobs) + square(e.pixels) * pixel_decline(run, knobs) + square(e.solver);
+      field_error(run, parameters) + square(e.pixels) * pixel_decline(run, parameters) + square(e.solver);
   constexpr double source_rays = 128.0; // that cost as much as direct light
   constexpr double of_elements = 0.7;
-  const double pass_one = solves_again(run, knobs)
+  const double pass_one = solves_again(run, parameters)
                               ? run.pass_one_cost * std::pow(elements, of_elements) *
-                                    (source_rays + knobs.rays) / (source_rays + run.knobs.rays)
+                                    (source_rays + parameters.rays) / (source_rays + run.parameters.rays)
                               : 0.0;
   return {std::sqrt(squared),
-          pass_one + pass_two_cost(run, knobs) + estimate_cost(run, knobs)};
+          pass_one + pass_two_cost(run, parameters) + estimate_cost(run, parameters)};
 }
 
 } // namespace meninas

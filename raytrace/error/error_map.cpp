@@ -72,8 +72,7 @@ Image error_map(const IrradianceField& field, const Camera& camera,
         mean_around(product_about(first, picture_of(source), interpolated, unit), reach_of_edges);
   }
 
-  // What is left of the field's error when that
-  // of the edges is taken off is a share of the radiance.
+  // The field's error without that of the edges is a share of the radiance.
   double edges2 = 0.0, radiance2 = 0.0;
   for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
     const glm::dvec3 l(picture.pixels[p]),

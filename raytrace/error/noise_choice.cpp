@@ -39,8 +39,8 @@ std::vector<double> chances_by(std::span<const double> contrasts, std::size_t wa
   if (std::isnormal(sum))
     std::ranges::transform(contrasts, chances.begin(),
                            [&](double c) { return 0.5 * (even + c / sum); });
-  // Those that would have more than certainty have that,
-  // and the others share what is left, until none has more.
+  // Pixels whose chance would exceed 1 have 1,
+  // and the others share the rest, until none exceeds 1.
   std::size_t certain = 0, before = 0;
   do {
     before = certain;

@@ -1,4 +1,4 @@
-// Which pixels are drawn again to learn the noise of camera rays.
+// The pixels that are drawn again to estimate the noise of camera rays.
 //
 // Noise sits at edges: the rim of a bright spot, a hundredth of the pixels or less,
 // may hold nearly all of it. So of N pixels those that differ from

@@ -65,7 +65,7 @@ double mean_of(std::size_t count, const Product& product) {
   return count > 0 ? sum / (3.0 * static_cast<double>(count)) : 0.0;
 }
 
-/// Of products whose mean is a square: at least the standard error of the mean, below which it is not known.
+/// The mean of products that is a square: at least the standard error of the mean, below which it is not known.
 template <typename Product>
 double known_mean(std::size_t count, const Product& product) {
   double sum = 0.0, squares = 0.0;
@@ -134,8 +134,8 @@ struct SquaredErrors {
   double field = 0.0, source = 0.0, vertices = 0.0, tail = 0.0, pixels = 0.0;
 };
 
-/// What gathered light is off by, squared, because of what it is gathered from.
-/// The gatherings that are compared are the same but for that.
+/// The squared error of gathered light due to the field it is gathered from.
+/// The compared gatherings are the same but for that.
 double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
                       std::span<const double> weight) {
   constexpr int places = 16;
@@ -158,7 +158,7 @@ struct SourceSettings {
   RenderSettings exact, shown;
 };
 
-/// What light from emitters is off by, squared, in the mean of a pixel.
+/// The squared error of direct light in the mean of a pixel.
 /// Cells as small as pixels are off to either side of edges: several rays in fewer pixels tell means with less noise.
 double error_of_means(Probing& probe, SourceSettings settings, const ProbeChoice& choice, PictureError& error) {
   constexpr int rays = 16, fewer = 4;
@@ -193,7 +193,7 @@ double light_beyond(Probing& probe, RenderSettings capped, const TwoDraws& all, 
   });
 }
 
-/// What one camera ray a pixel shows is off:
+/// The error of the light that one camera ray a pixel shows:
 /// by two gatherings at the first pixels, and by direct light at all.
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
                  bool within_pixels, SquaredErrors& errors, PictureError& error) {
@@ -207,7 +207,7 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     errors.field = estimated_error(probe, first, choice.weight);
     return;
   }
-  // What is computed at the hit is drawn alike in L_k, and is not in the difference:
+  // Light computed at the hit is drawn alike in L_k, and is not in the difference:
   // its noise is the pixels'.
   const Radiances l1 = probe(redrawn(shown, 3), interpolated && !within_pixels ? pixels : first);
   const Radiances l2 = interpolated ? l1 : probe(redrawn(shown, 4), first);

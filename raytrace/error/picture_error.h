@@ -1,4 +1,4 @@
-// What a picture says about its own error, without a reference:
+// An estimate of a picture's own error, without a reference:
 // the root of the mean square over pixels and channels,
 // relative to the mean radiance, both over the pixels outside emitters (probes.h).
 //
@@ -19,13 +19,13 @@
 //   mean over pixels of (D_a - L_a)(D_b - L_b),      a and b means over different rays of the same pixel
 //
 // and indirect light by itself at the ends of the same rays; products of both are left out. Each counts for no less
-// than its standard error: what is below that is not known.
-// The whole is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2
+// than its standard error, below which it is not known.
+// The sum is mesh^2 + form_factors^2 + mirror_tail^2. Its part form_factors^2 = 4/9 sigma^2
 // is noise of vertices (4/9 is the mean of the sum of squared weights of bilinear interpolation),
-// mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and
-// mesh^2 is the rest: what interpolation hides. Direct light is cheap and has the edges:
+// mirror_tail^2 is the difference between gatherings without and with the picture's cap on mirrors, and
+// mesh^2 is the rest, the interpolation error. Direct light is cheap and has the edges:
 // it is computed at many more pixels.
-// pixels^2 is half the mean square of what another draw of all camera rays changes,
+// pixels^2 is half the mean square of the change by another draw of all camera rays,
 // at pixels of each number of samples for themselves:
 // where sampling is adaptive, the few that have many have most of the error;
 // and of those rather at edges (noise_choice.h). solver is the solver's bound,
@@ -53,12 +53,12 @@ struct PictureErrorSettings {
 struct PictureError {
   double mesh = 0.0, form_factors = 0.0, mirror_tail = 0.0, pixels = 0.0, solver = 0.0;
   double mesh_direct =
-      0.0; ///< the part of mesh that light computed from the source at every hit would not have
+      0.0; ///< the part of mesh that direct light at every hit would not have
   double total = 0.0;
   double mean_radiance = 0.0; ///< what all are relative to
   std::uint64_t rays = 0;     ///< traced to find out
   double seconds = 0.0;
-  /// What one hit took with these terms; 0: none was made.
+  /// The cost of one hit with these terms; 0: none was made.
   double direct_seconds = 0.0, gather_seconds = 0.0, direct_rays = 0.0, gather_rays = 0.0;
 };
 

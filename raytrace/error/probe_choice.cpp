@@ -45,7 +45,7 @@ static std::vector<glm::vec3> bends(std::span<const ElementCorners> cells,
   return sums;
 }
 
-/// V, by one ray a pixel. Of a large picture a smaller one is good enough.
+/// V, by one ray a pixel. For a large picture a smaller one is good enough.
 static Image bend_picture(const IrradianceField& field, FieldContent light,
                           const Camera& camera, RenderSettings settings) {
   constexpr double max_pixels = 20'000.0;
@@ -98,7 +98,7 @@ public:
   }
 
 private:
-  /// Those outside emitters.
+  /// The pixels of a cell outside emitters.
   std::vector<glm::ivec2> pixels_of(glm::ivec2 cell) const {
     const auto first = [&](glm::ivec2 c) { return (c * size_ + cells_ - 1) / cells_; };
     const glm::ivec2 from = first(cell), to = first(cell + 1);

@@ -1,9 +1,9 @@
-// Which pixels are looked at to learn what a picture is off by.
+// The pixels (probes) at which the error of a picture is estimated.
 //
 // Interpolation errs where light bends within elements: at the foot of a bright wall,
 // at the rim of a shadow; often in a few pixels that hold all of the error.
-// V(p) is the radiance that p would show if the irradiance of every vertex were what it
-// differs by from the mean of those an edge away. Half of the pixels are drawn evenly,
+// V(p) is the radiance of p when each vertex's irradiance is replaced by its difference from the mean of
+// its neighbours. Half of the pixels are drawn evenly,
 // half with the probability V^2 / sum V^2, and together they count as if each were drawn with
 //
 //   q(p) = (1/N + V^2(p) / sum V^2) / 2

@@ -21,7 +21,7 @@ struct ProbedPixels {
 ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels);
 
-/// What the first samples of every pixel show of that light, interpolated.
+/// A picture of that light, interpolated, by the first samples of every pixel.
 Image first_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
                     const RenderSettings& settings);
 
@@ -33,8 +33,8 @@ std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples);
 
-/// Seconds that one camera ray with its diffuse term takes here, by all threads, as the rays of a few
-/// pixels tell over a field of ones.
+/// Seconds of a camera ray with its diffuse term, by all threads together: t = elapsed / rays, of the rays of a few
+/// pixels over a field of ones.
 double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const Camera& camera,
                           RenderSettings settings);
 

@@ -42,7 +42,7 @@ std::vector<ShownPixel> shown_at_edges(const Image& picture, const PixelMask& pi
       shown.push_back({p, glm::vec3(0.0F)});
     }
 
-  // What the pixel's mean has that its samples do not see straight.
+  // The part of the pixel's mean that its samples do not see straight.
   std::vector<glm::vec3> besides(shown.size());
   straight({{0, samples}, &pixels}, [&](int x, int y, const SeenRadiance& seen) {
     besides[place[number(x, y)]] = picture.at(x, y) - (seen[0] + seen[1] + seen[2]);

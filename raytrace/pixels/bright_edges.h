@@ -5,9 +5,9 @@
 // with T the view transform (image/view_transform.h), e the exposure, L the pixel's mean and S_k what sample k
 // sees straight: emission, sky and the field's diffuse light, which have no noise. A pixel that is a sixteenth of a
 // lamp of a hundred times white is white by its mean: lamps would have edges like stairs. T of each sample is
-// what a film or an eye shows of each part of the pixel. What mirrors and lobes show is in L alone: T of
+// what a film or an eye shows of each part of the pixel. Light of mirrors and lobes is in L alone: T of
 // each of their rays would take noise for parts of the pixel, and darken highlights. Where all samples see
-// the same straight, T(2^e L) is what is shown.
+// the same straight, T(2^e L) is shown.
 //
 // Limits: edges of lamps in mirrors and gloss, and of bright things so narrow that no pixel's mean reaches white,
 // are those of their means; the noise of frosted glass before a lamp is taken for parts of it.
@@ -22,7 +22,7 @@ namespace meninas {
 /// and for that one.
 PixelMask bright_edges(const Image& picture, double exposure);
 
-/// What these pixels of a picture show at the exposure and by the transform of `display`. `straight` traces what is
+/// These pixels of a picture at the exposure and by the transform of `display`. `straight` traces the light that is
 /// seen straight, by up to `samples` samples.
 std::vector<ShownPixel> shown_at_edges(const Image& picture, const PixelMask& pixels, int samples,
                                        const TraceSamples& straight, const ShownPixels& display);

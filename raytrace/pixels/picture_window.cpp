@@ -34,7 +34,7 @@ static PictureWindow tiles_of_part(PictureWindow all, int number, int count) {
 
 static int tiles_along(int pixels) { return (pixels + tile_size - 1) / tile_size; }
 
-int most_parts(int width, int height) { return tiles_along(width) * tiles_along(height); }
+int max_parts(int width, int height) { return tiles_along(width) * tiles_along(height); }
 
 /// The pixels from one place to another, as far as the picture goes.
 static PictureWindow clipped(int x0, int y0, int x1, int y1, int width, int height) {
@@ -44,7 +44,7 @@ static PictureWindow clipped(int x0, int y0, int x1, int y1, int width, int heig
 }
 
 PictureWindow window_of_part(int width, int height, int number, int count) {
-  expects(number >= 0 && number < count && count <= most_parts(width, height),
+  expects(number >= 0 && number < count && count <= max_parts(width, height),
           "a part of a picture has a tile");
   const PictureWindow tiles =
       tiles_of_part({0, 0, tiles_along(width), tiles_along(height)}, number, count);

@@ -13,9 +13,9 @@ namespace meninas {
 inline constexpr int tile_size = 32; ///< pixels square
 
 /// As many as it has tiles.
-int most_parts(int width, int height);
+int max_parts(int width, int height);
 
-/// Part `number` of `count`, from 0. All of them cover each pixel once. Precondition: count <= most_parts.
+/// Part `number` of `count`, from 0. All of them cover each pixel once. Precondition: count <= max_parts.
 PictureWindow window_of_part(int width, int height, int number, int count);
 
 /// Bigger by a tile on every side, as far as the picture goes.

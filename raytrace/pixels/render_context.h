@@ -1,4 +1,4 @@
-// What all tiles of a picture share: scene, settings, camera and its samples.
+// The context that all tiles of a picture share: scene, settings, camera and its samples.
 #pragma once
 
 #include "raytrace/beams/frustum.h"

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int growth = 4; ///< of the samples of a pixel, from round to round
 
-/// How far off pixels may be.
+/// The error bound of pixels.
 struct PixelBound {
   float share = 0.0F, mean = 0.0F;
 

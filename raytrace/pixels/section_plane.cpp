@@ -10,7 +10,7 @@ namespace meninas {
 
 namespace {
 
-/// What is inside: dot(normal, x - origin) >= 0.
+/// The points x with dot(normal, x - origin) >= 0 are inside.
 struct Bound {
   Point3 origin;
   Vec3 normal;
@@ -18,7 +18,7 @@ struct Bound {
 
 } // namespace
 
-/// What a picture shows before the plane at that depth.
+/// The bounds of the space that a picture shows before the plane at that depth.
 static std::array<Bound, 6> bounds_before(const Camera& camera, double picture_aspect,
                                           double depth) {
   const bool perspective = camera.projection == Projection::perspective;
@@ -59,7 +59,7 @@ static bool reaches_in(std::span<const Bound> bounds, const std::array<Point3, 3
   return !part.empty();
 }
 
-/// How far along the view the scene reaches.
+/// The depth of the scene along the view.
 static double depth_of(const Bounds& bounds, const Camera& camera) {
   const Vec3 low = bounds.low - camera.position, high = bounds.high - camera.position;
   const Vec3 &f = camera.forward, farthest = glm::max(f * low, f * high);

@@ -10,7 +10,7 @@
 //
 // Numbers other than those of elements are shown in magma from 0 to a top
 // that goes with the picture; those in lux and cd/m^2 with a scale and lines (image/colour_scale.h).
-// What has no number is black, and 0.
+// Pixels without a number are black, and 0.
 #pragma once
 
 #include "image/channel.h"

@@ -2,7 +2,7 @@
 
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/scene/light_scene.h"
-#include "raytrace/lobe_grid.h"
+#include "raytrace/glossy_frustum.h"
 #include "raytrace/views/sight.h"
 #include "scenes/materials/normal_map.h"
 #include "scenes/materials/refraction.h"
@@ -20,7 +20,7 @@ namespace meninas {
 namespace {
 
 constexpr double min_throughput = 0.02;
-constexpr double most_paths = 1 << 19;
+constexpr double max_paths = 1 << 19;
 constexpr int max_legs = 32; ///< in a row
 
 /// A leg of a path that is still to be followed.
@@ -50,7 +50,7 @@ private:
   std::vector<std::atomic<Value>> marks_;
 };
 
-/// What is seen, and how much direct light weighs that is the field's.
+/// The seen elements, and the weight of the field's direct light.
 struct SeenMarks {
   Marks<std::uint8_t> elements;
   Marks<float> direct;
@@ -71,7 +71,7 @@ void mark(const Met& met, const Leg& leg, SeenMarks& seen) {
     return;
   const TriangleId triangle = met.hit.triangle;
   const glm::vec2 b(met.hit.barycentric);
-  const glm::vec2 uv = landing_uv(met.face, met.light.surfaces, index(triangle), b.x, b.y);
+  const glm::vec2 uv = hit_uv(met.face, met.light.surfaces, index(triangle), b.x, b.y);
   const auto set = [&](std::uint32_t element) {
     seen.elements.set(element, 1);
     if (!leg.sight || !seen.direct_at_sights)
@@ -143,7 +143,7 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
   }
 }
 
-/// Of an element and all that share a vertex with it the largest mark.
+/// The largest mark of an element and of all that share a vertex with it.
 template <typename Value>
 std::vector<Value> with_neighbours(const ElementMesh& mesh, const VertexElements& around,
                                    const std::vector<Value>& marks) {
@@ -164,7 +164,7 @@ std::vector<Value> with_neighbours(const ElementMesh& mesh, const VertexElements
 SeenElements seen_elements(const LightScene& light, const Camera& camera,
                            const RenderSettings& settings) {
   const double pixels = double(settings.width) * settings.height;
-  const double apart = std::max(1.0, std::sqrt(pixels / most_paths));
+  const double apart = std::max(1.0, std::sqrt(pixels / max_paths));
   const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart));
   const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart));
   const std::size_t count = element_count(light.mesh);

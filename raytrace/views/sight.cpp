@@ -58,7 +58,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       sight.side = face.side;
       const glm::vec2 b(hit->barycentric);
       sight.place = field_point(light.landing.elements, face.side,
-                                landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
+                                hit_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
     }
     const SightStep to = sight_step(light, face, *hit);
     if (to == SightStep::end || (to == SightStep::mirror && sight.mirrors >= max_mirrors))
@@ -89,7 +89,7 @@ std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, Tri
   const glm::vec2 b(barycentric);
   return field_point(
       light.landing.elements, index(behind),
-      landing_uv(light.landing.faces[face], light.surfaces, index(triangle), b.x, b.y));
+      hit_uv(light.landing.faces[face], light.surfaces, index(triangle), b.x, b.y));
 }
 
 Rgb albedo_at(const LightScene& light, const Sight& sight) {

@@ -1,5 +1,5 @@
-// What the ray through one point of the picture comes to, followed through ideal mirrors
-// where that is wanted: for layers and views that show the scene instead of its light.
+// The first hit of the ray through one point of the picture, followed by ideal mirrors where that is wanted:
+// for layers and views that show the scene instead of its light.
 #pragma once
 
 #include "raytrace/field_shading.h"
@@ -27,11 +27,12 @@ struct Sight {
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);
 
-/// What a sight does where it meets a face: ends, goes on through glass that is mostly clear, or is reflected.
+/// The step of a sight where it meets a face: it ends, goes on through mostly clear glass, or is reflected.
 enum class SightStep { end, through, mirror };
 SightStep sight_step(const LightScene& light, const FaceRecord& face, const Hit& hit);
 
-/// The normal by which a face reflects towards where a ray comes from: its own, or that of its curve.
+/// The normal by which a face reflects towards where a ray comes from: its own, or that of its curve
+/// (Phong 1975).
 Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
                       const Vec3& along);
 

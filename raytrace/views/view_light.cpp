@@ -13,7 +13,7 @@ namespace meninas {
 
 namespace {
 
-/// How far the rays through two points of the picture are apart, t along both.
+/// The distance between the rays through two points of the picture, t along both.
 double apart_at(const CameraRay& a, const CameraRay& b, double t) {
   return glm::length((b.origin - a.origin) + t * (b.direction - a.direction));
 }
@@ -66,13 +66,13 @@ std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera
 
 ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
                          const RenderSettings& settings, const Progress& progress) {
-  constexpr double most_points = 1 << 22;
+  constexpr double max_points = 1 << 22;
   if (settings.diffuse.term != DiffuseTerm::direct)
     return {nullptr, settings, 0};
   // Shadows of punctual lights are found by the points that ask for them.
   const double wanted = field.scene->punctual.empty() ? 1.0 : 0.5;
   const double pixels = double(settings.width) * settings.height;
-  const double apart = std::max(wanted, std::sqrt(pixels / most_points));
+  const double apart = std::max(wanted, std::sqrt(pixels / max_points));
   ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, apart, progress), apart,
                                settings.diffuse.refinement, progress);
   ViewLight light{std::make_shared<const IrradianceField>(std::move(finer.field)), settings,

@@ -1,12 +1,12 @@
-// What pass two shows a view by: the field as it is, or with direct light as fine as the view's pixels.
+// The field by which pass two shows a view: as it is, or with direct light as fine as the view's pixels.
 //
-// Which points are seen is asked by one ray through each corner of the pixels, followed through plane mirrors.
+// The seen points are found by one ray through each corner of the pixels, followed through plane mirrors.
 // Rays a pixel apart in the picture are apart, t along both, by
 //
 //   w = max over both neighbours of  abs((o' - o) + t (d' - d))        metres,
 //
-// t the way from the eye unfolded at the mirrors. What lobes and solids of glass show is as fine as
-// what else is seen of it.
+// t the way from the eye unfolded at the mirrors. The field is refined by these points only: surfaces seen by
+// lobes or through solids of glass are as fine as their other views make them.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"
@@ -18,7 +18,7 @@
 
 namespace meninas {
 
-/// How many vertices with direct light there are to a pixel, about: measured 0.1 to 0.6 over the gallery.
+/// The approximate number of vertices with direct light per pixel: measured 0.1 to 0.6 over the gallery.
 inline constexpr double vertices_of_a_pixel = 0.3;
 
 struct ViewLight {

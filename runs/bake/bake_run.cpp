@@ -97,8 +97,8 @@ VertexIrradiance wanted_light(const BakeRequest& request, const IrradianceField&
 void warn_of_layout(const BakeRequest& request, const LightmapLayout& layout, double root_size,
                     const RunEvents& events) {
   if (layout.detail < layout.full_detail)
-    warn(events, fmt::format("--lightmap-size {}: texels are {:.2g} m wide at the least, where the light was found at "
-                             "up to {:.2g} m",
+    warn(events, fmt::format("--lightmap-size {}: the finest texels are {:.2g} m wide, coarser than the mesh "
+                             "({:.2g} m): use a larger --lightmap-size",
                              request.lightmap_size, std::ldexp(root_size, -layout.detail),
                              std::ldexp(root_size, -layout.full_detail)));
   if (layout.single > 0)

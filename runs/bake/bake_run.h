@@ -15,10 +15,10 @@ struct BakeRequest {
   std::filesystem::path baked; ///< .glb; NAME.lightmap.exr and NAME.lightmap.png are written beside it
   std::optional<std::filesystem::path> solution; ///< of an earlier solve: pass one is skipped
   int lightmap_size = 2048;                      ///< texels a side, at most
-  bool direct = true; ///< else without the light that is computed from the source (IrradianceField::indirect)
+  bool direct = true; ///< else indirect irradiance alone (IrradianceField::indirect)
   RunSettings settings;
 };
-inline constexpr int least_lightmap = 16, largest_lightmap = 16384;
+inline constexpr int min_lightmap = 16, largest_lightmap = 16384;
 
 /// Writes the three files, or throws a UserError before or after the work; what was written is whole.
 RunFigures bake_run(const BakeRequest& request, const RunEvents& events = {});

@@ -250,7 +250,7 @@ Vec2 barycentric_in(const Corners3& p, const Point3& x) {
          glm::dot(normal, normal);
 }
 
-double least_weight(Vec2 b) { return std::min({b.x, b.y, 1.0 - b.x - b.y}); }
+double min_weight(Vec2 b) { return std::min({b.x, b.y, 1.0 - b.x - b.y}); }
 
 Vec2 clamped(Vec2 b) {
   b = glm::max(b, Vec2(0.0));
@@ -277,7 +277,7 @@ ChartPlace place_in_scene(const LightScene& light, const Chart& chart, Vec2 at) 
   double most = -std::numeric_limits<double>::infinity();
   for (const TriangleId id : chart.triangles) {
     const Vec2 b = barycentric_at(light, chart, id, at);
-    if (const double least = least_weight(b); least > most) {
+    if (const double least = min_weight(b); least > most) {
       most = least;
       best = {id, b};
     }

@@ -31,7 +31,8 @@ Lightmap fill_lightmap(const IrradianceField& field, const VertexIrradiance& val
                        const std::vector<Chart>& charts, const LightmapLayout& layout,
                        WithShown with_shown);
 
-/// H = factor times the colour that 8 bits of sRGB decode to; brighter texels are clipped. Rounded up or down so that the mean of light is kept.
+/// H = factor times the colour that 8 bits of sRGB decode to; brighter texels are clipped. Rounded up or down so that
+/// the mean of light is kept.
 std::vector<std::byte> irradiance_png(const Lightmap& map);
 
 /// sRGB, 8 bits.

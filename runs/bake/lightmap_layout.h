@@ -1,4 +1,4 @@
-// How many texels each chart has, and where they are.
+// The layout of a lightmap: the number of texels of each chart, and their places.
 //
 // A chart of n_a x n_b intervals has (n_a + 1) x (n_b + 1) texels whose centres are at (i / n_a, j / n_b):
 // the first and the last on its edges, so that what bilinear filtering shows between them is

@@ -9,7 +9,7 @@
 //
 // A job stands for one picture for each of its scenes, times of its animations, cameras (or frames
 // of a path) and modes; the frames of a path and the times of a job go side by side.
-// What a job leaves out it has from the defaults; settings,
+// Members that a job leaves out have the values of the defaults; settings,
 // which have the names and values of the options of `meninas render`, are merged one by one.
 #pragma once
 
@@ -29,7 +29,7 @@ namespace meninas {
 /// The scene's first camera, those whose names match a text, or a path.
 using CameraChoice = std::variant<std::monostate, std::string, CameraPath>;
 
-/// How the pictures of a job are made in one of its modes.
+/// The settings for the pictures of a job in one of its modes.
 struct JobMode {
   std::string name;              ///< radiosity, hybrid, reference
   RenderRequest request;         ///< without scene, camera and outputs

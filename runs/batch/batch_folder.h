@@ -1,5 +1,5 @@
-// What a batch keeps beside its pictures, in DIR/.meninas:
-// what is done, who is at work, and the solutions of pass one.
+// The files of a batch beside its pictures, in DIR/.meninas: the pictures done, the processes at work, and
+// the solutions of pass one.
 //
 //   done/ID.json        one record for each picture that was tried (ID: a hash of its name)
 //   locks/ID.lock       held while a picture is being made
@@ -20,7 +20,7 @@
 
 namespace meninas {
 
-/// What became of a picture.
+/// The outcome of a picture.
 struct PictureRecord {
   std::string name, key, session;
   std::string error; ///< empty when it was made
@@ -61,8 +61,8 @@ private:
   std::optional<FileLock> at_work_;
 };
 
-/// What a folder says is done already, without touching it:
-/// what --dry-run shows and --resume would leave as it is.
+/// Whether a folder says that the picture is done already, without touching it:
+/// --dry-run shows such pictures, and --resume would leave them as they are.
 bool is_done(const std::filesystem::path& folder, const BatchPicture& picture);
 
 /// The hashes of the files as they are now. Throws InputError where one cannot be read.

@@ -1,4 +1,4 @@
-// How long a batch is going to take from here, judged by how long its tasks took so far.
+// The time left of a batch, judged by the seconds of its tasks so far.
 //
 // Pictures of a kind (mode, diffuse term, quality) are expected to take equally long for a camera
 // ray, solves equally long each. Tasks side by side share the threads, so these are seconds
@@ -15,7 +15,7 @@
 
 namespace meninas {
 
-/// What goes on now; seconds since its begin.
+/// The tasks that are running; seconds since their begin.
 struct TasksUnderWay {
   struct Picture {
     std::size_t picture = 0;

@@ -1,5 +1,4 @@
-// What a batch has to do: its jobs taken apart into single pictures,
-// each with the scene, the camera and the settings it is made of.
+// The plan of a batch: its jobs taken apart into single pictures, each with its scene, camera and settings.
 //
 // Pictures are in the order of jobs, scenes, times, cameras, frames and modes:
 // the same for every process that reads the same files.
@@ -15,7 +14,7 @@
 
 namespace meninas {
 
-/// What has to be known about a scene before it is rendered.
+/// The facts about a scene that have to be known before it is rendered.
 struct SceneFacts {
   std::uint64_t hash = 0; ///< of everything light depends on, content_hash
   std::vector<Camera> cameras;
@@ -58,7 +57,7 @@ struct NumberRange {
   std::size_t first = 0, last = 0;
 };
 
-/// Those of some numbers; all where none are given, each once, in the batch's order.
+/// The pictures of some numbers; all where none are given, each once, in the batch's order.
 /// Throws UsageError for a number that no picture has.
 std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures,
                                       const std::vector<NumberRange>& only);

@@ -1,5 +1,5 @@
-// Which task of a batch comes next, and whether there is memory for it.
-// Knows no threads: whoever uses it sees to that.
+// The queue of a batch: its next task, if there is memory for it.
+// The queue knows no threads; its callers lock it.
 //
 // Pictures of one scene file that share a solution form a group; a reference is a group of its own.
 // Opening a group finds its light; while it is open its pictures are tasks.
@@ -43,7 +43,7 @@ public:
   /// Pictures found too big by `next` since the last call: they are over.
   std::vector<RefusedPicture> take_refused();
 
-  // How a task ended: exactly one of these for each.
+  // The end of a task: exactly one of these is called for each.
   void opened(const BatchTask& task, SceneLight light);
   void not_opened(const BatchTask& task, Clock::time_point again);
   std::vector<std::size_t>

@@ -1,4 +1,4 @@
-// What is said about a batch at its end:
+// The reports at the end of a batch:
 // summary.json for programs, index.html (a contact sheet) for people, JUnit XML for servers.
 //
 // They speak of all pictures of the jobs file, whichever process has made them:

@@ -35,7 +35,7 @@ struct BatchEvents {
 BatchReport batch_run(const BatchRequest& request, std::vector<BatchPicture> pictures,
                       const BatchEvents& events = {});
 
-/// What would be done, a line for each picture and solve. Touches nothing.
+/// The work that a batch would do, a line for each picture and solve. Touches nothing.
 std::string batch_outlook(const BatchRequest& request, const std::vector<BatchPicture>& pictures);
 
 } // namespace meninas

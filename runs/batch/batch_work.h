@@ -3,7 +3,7 @@
 // At most as many tasks (batch_queue.h) run as there are threads;
 // threads that have no task of their own help with the rays of the tasks that run.
 // So small pictures are made side by side, and a large one, or a solve,
-// has all threads that nothing else needs. What another process is at is left for later.
+// has all threads that nothing else needs. Tasks of other processes are left for later.
 #pragma once
 
 #include "runs/batch/scene_work.h"
@@ -15,7 +15,7 @@
 
 namespace meninas {
 
-/// How far a batch is.
+/// The progress of a batch.
 struct BatchProgress {
   std::size_t pictures = 0, done = 0, failed = 0;
   std::size_t running = 0, solving = 0; ///< tasks
@@ -30,7 +30,7 @@ struct BatchWorkEvents {
   std::function<void(const BatchProgress&)> progress;
 };
 
-/// What pass one of a group of pictures was.
+/// The outcome of pass one for a group of pictures.
 struct SolveResult {
   std::string scene, key;
   bool solved = false; ///< false: read from the cache

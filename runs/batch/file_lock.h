@@ -32,7 +32,8 @@ private:
 std::optional<FileLock> try_lock(const std::filesystem::path& file);
 
 /// Has the names in a folder be those that are there now. A client of NFS answers from memory for up to a minute which
-/// names there are, and asks the server when the folder is opened (close-to-open consistency). Elsewhere it does nothing.
+/// names there are, and asks the server when the folder is opened (close-to-open consistency). Elsewhere it does
+/// nothing.
 void look_anew(const std::filesystem::path& folder);
 
 /// Waits for the others.

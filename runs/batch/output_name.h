@@ -7,14 +7,14 @@
 
 namespace meninas {
 
-/// What is filled in. Characters that do not belong into file names everywhere (all but letters,
+/// The values of a template's parts. Characters that are not allowed in file names everywhere (all but letters,
 /// digits, '.', '_' and '-', and bytes of UTF-8) become '_'; a frame has at least four digits.
 struct NameParts {
   std::string scene, camera, mode, job;
   int frame = 0;
 };
 
-/// What is wrong with a template: an unknown part (with a hint),
+/// The problem of a template: an unknown part (with a hint),
 /// braces that do not match, a name that is no picture's or leaves the output folder.
 std::optional<std::string> template_problem(const std::string& name_template);
 

@@ -31,7 +31,7 @@ enum class PictureStatus {
   failed
 };
 
-/// What became of a picture, `record` with its reason if it failed.
+/// The outcome of a picture, `record` with its reason if it failed.
 struct PictureResult {
   PictureStatus status = PictureStatus::open;
   PictureRecord record;

@@ -175,15 +175,15 @@ void write_tile(const fs::path& file, const ViewPicture& picture, const TileOrig
 TileFile read_tile(const fs::path& file) {
   WindowFile stored = read_exr_window(file);
   constexpr int longest_side = 1 << 16;
-  constexpr std::int64_t most_pixels = std::int64_t{1} << 27; // of a picture, as `--size` has it
+  constexpr std::int64_t max_pixels = std::int64_t{1} << 27; // of a picture, as `--size` has it
   TileFile tile;
   tile.part = part_in(file, value_of(stored.attributes, "tile"));
   tile.window = stored.window;
   const auto& [x, y, width, height, picture_width, picture_height] = tile.window;
   const bool possible = picture_width > 0 && picture_height > 0 && picture_width <= longest_side &&
                         picture_height <= longest_side &&
-                        std::int64_t{picture_width} * picture_height <= most_pixels &&
-                        tile.part.count <= most_parts(picture_width, picture_height);
+                        std::int64_t{picture_width} * picture_height <= max_pixels &&
+                        tile.part.count <= max_parts(picture_width, picture_height);
   if (!possible || window_of_part(picture_width, picture_height, tile.part.number,
                                   tile.part.count) != PictureWindow{x, y, width, height})
     refuse(file, "damaged: it has other pixels than its part of the picture");

@@ -1,6 +1,6 @@
 // A part of a picture as a file: an EXR of floats whose data window is the part's, with its layers, and
-// attributes that say of what scene, settings and version it is. What PNGs show at the edges of bright things
-// (raytrace/pixels/bright_edges.h) is kept as layers, one for each exposure (stops) that the whole may have.
+// attributes with its scene, settings and version. The values that PNGs show at the edges of bright things
+// (raytrace/pixels/bright_edges.h) are kept as layers, one for each exposure (stops) that the whole may have.
 //
 //   tile           K/N, from 1
 //   tileVersion    of the program
@@ -18,7 +18,7 @@
 
 namespace meninas {
 
-/// What a part is of, beside the picture's own attributes.
+/// The origin of a part, beside the picture's own attributes.
 struct TileOrigin {
   const Camera& camera;
   const RunSettings& settings; ///< that have a part
@@ -45,7 +45,7 @@ struct TileFile {
 /// Throws InputError for a file that is no such part.
 TileFile read_tile(const std::filesystem::path& file);
 
-/// Those of the picture.
+/// The attributes of the whole picture.
 Attributes without_tile(Attributes attributes);
 
 } // namespace meninas

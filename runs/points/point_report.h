@@ -1,8 +1,9 @@
-// What arrives at sets of points, as a table and as JSON.
+// Irradiance and illuminance at sets of points, as a table and as JSON.
 //
 // Columns: the set's name; x, y, z, m; the normal; illuminance in lux, all of it, the direct part and
 // the part that came by way of mirrors (radiosity/queries/point_light.h); the same as irradiance,
-// red, green and blue, W/m^2; where lamps are known apart, the illuminance by each of them. Lux are K times luminance (photometry.h).
+// red, green and blue, W/m^2; where lamps are known apart, the illuminance by each of them. Lux are K times luminance
+// (photometry.h).
 #pragma once
 
 #include "runs/points/point_sets.h"

@@ -14,7 +14,7 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_points = 1'000'000;
+constexpr std::size_t max_points = 1'000'000;
 
 constexpr std::string_view blanks = " \t\r";
 
@@ -98,8 +98,8 @@ std::vector<QueryPoint> parse_points(std::string_view text, const std::string& f
     if (header)
       continue;
     points.push_back(point_in(fields, file, number));
-    if (points.size() > most_points)
-      refuse(file, number, fmt::format("over {} points", most_points));
+    if (points.size() > max_points)
+      refuse(file, number, fmt::format("over {} points", max_points));
   }
   if (points.empty())
     throw InputError(file, "", "has no points");

@@ -1,5 +1,4 @@
-// What a comparison of modes says:
-// figures, pictures of differences, and a page that shows all of it.
+// The report of a comparison of modes: figures, pictures of differences, and a page that shows all of it.
 //
 // Every mode is measured (image/metrics/metrics.h) against the most accurate one there is:
 // the reference, else the hybrid picture. The share of a layer is its mean

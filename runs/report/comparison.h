@@ -19,7 +19,7 @@ struct ComparedPicture {
   std::vector<std::string> remarks;     ///< what of the file is compared, a line each
 };
 
-/// What differences of the two are in: the unit of the reference, or of the picture where the reference does not say its own.
+/// The unit of differences of the two: that of the reference, or of the picture if the reference does not state one.
 /// Empty where neither says it.
 std::string unit_of_differences(const ComparedPicture& picture, const ComparedPicture& reference);
 
@@ -32,7 +32,7 @@ ComparedPicture read_compared(const std::filesystem::path& file,
 void check_same_size(const Image& picture, const std::filesystem::path& picture_file,
                      const Image& reference, const std::filesystem::path& reference_file);
 
-/// How the two are displayed and what their peak is:
+/// The display of the two and their peak:
 /// code values as they are with peak 1, radiance at the automatic exposure of the reference.
 MetricSettings metric_settings(const ComparedPicture& reference, std::optional<double> exposure);
 
@@ -41,7 +41,8 @@ struct MetricLimit {
   double limit = 0.0; ///< the largest value that passes; the smallest for psnr and ssim
 };
 
-/// " W/m^2/sr", as it stands behind a value of this metric of pictures in that unit; empty where it has none or it is not known.
+/// " W/m^2/sr", as it stands behind a value of this metric of pictures in that unit; empty where it has none or it is
+/// not known.
 std::string unit_behind(Metric metric, const std::string& unit);
 
 /// Whether the limit holds; a value that is NaN holds none.

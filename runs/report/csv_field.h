@@ -5,7 +5,8 @@
 
 namespace meninas {
 
-/// The text, in quotes where it holds what ends a field or a row; a semicolon too, which ends fields in some countries' spreadsheets.
+/// The text, in quotes where it holds what ends a field or a row; a semicolon too, which ends fields in some countries'
+/// spreadsheets.
 std::string csv_field(const std::string& text);
 
 } // namespace meninas

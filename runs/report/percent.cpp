@@ -14,4 +14,9 @@ std::string readable_percent(double share) {
                              : fmt::format("{:.0f} %", 100.0 * share);
 }
 
+std::string about_percent(double share) {
+  const std::string text = readable_percent(share);
+  return text.starts_with("over") || text.starts_with("under") ? text : "about " + text;
+}
+
 } // namespace meninas

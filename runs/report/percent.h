@@ -9,4 +9,7 @@ namespace meninas {
 /// "under 0.01 %" below what matters.
 std::string readable_percent(double share);
 
+/// The same of an estimate: "about 0.45 %", but "over 100 %" and "under 0.01 %".
+std::string about_percent(double share);
+
 } // namespace meninas

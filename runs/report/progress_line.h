@@ -1,4 +1,4 @@
-// How far a run is, on standard error:
+// The progress of a run on standard error:
 // one line that is written over on a terminal, a plain line now and then in a log.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace meninas {
 
 enum class ProgressStyle { none, terminal, log };
 
-/// What people are told. Where it cannot be written, on a full disk or a closed stream,
-/// it is lost: nobody's picture is, for want of a reader.
+/// Writes a text for people. If it cannot be written, on a full disk or a closed stream, the text is lost, and the
+/// run goes on.
 void tell(std::FILE* stream, const std::string& text);
 
 /// A terminal where the stream is one, a log otherwise.

@@ -1,5 +1,4 @@
-// How far a whole run is: one fraction over all of its stages, and the time that all of them will
-// still take.
+// The progress of a whole run: one fraction over all of its stages, and the time left for all of them.
 //
 // A run names its stages beforehand with the shares of its time that they usually take. Work reports
 // a stage and the fraction of it that is done. Some stages never report: they begin when the stage

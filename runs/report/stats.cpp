@@ -56,7 +56,7 @@ Json optional_json(const std::optional<double>& value) { return value ? Json(*va
 WorldFigures world_figures(const TransportPlan& plan) {
   const WorldTree& worlds = plan.worlds;
   return {worlds.considered,        worlds.worlds.size() - 1, worlds.pruned_unseen,
-          worlds.pruned_throughput, worlds.pruned_limit,      plan.world_tail};
+          worlds.pruned_throughput, worlds.pruned_limit,      plan.mirror_depth_bound};
 }
 
 Json worlds_json(const WorldFigures& worlds) {

@@ -26,14 +26,14 @@ struct RayCounts {
   std::uint64_t form_factor = 0, shadow = 0, camera = 0, specular = 0, path = 0;
 };
 
-/// How good a reference is.
+/// The quality of a reference.
 struct ReferenceFigures {
   int samples = 0;
   double standard_error = 0.0;
   reference::StoppedBy stopped_by = reference::StoppedBy::samples;
 };
 
-/// What became of the mirror worlds that were looked at:
+/// The outcome of the mirror worlds that were considered:
 /// considered = kept + unseen + faint + beyond the limits.
 struct WorldFigures {
   std::size_t considered = 0, kept = 0, pruned_unseen = 0, pruned_throughput = 0, pruned_limit = 0;

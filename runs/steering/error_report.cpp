@@ -22,7 +22,7 @@ std::string describe_error(const PictureError& error) {
                    Part{"mirror depth", error.mirror_tail}, Part{"camera rays", error.pixels},
                    Part{"solver", error.solver}};
   std::ranges::stable_sort(parts, std::greater{}, &Part::error);
-  std::string text = fmt::format("about {} off", readable_percent(error.total));
+  std::string text = fmt::format("{} off", about_percent(error.total));
   constexpr double matters = 0.2; // of the total: less adds a fiftieth to it
   const char* between = " (";
   for (const Part& part : parts)

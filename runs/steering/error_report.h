@@ -1,5 +1,4 @@
-// What a run says about the error of its picture:
-// in a line, in its figures, as a layer of the picture.
+// The report of a picture's error: as a line, in the run's figures, as a layer of the picture.
 #pragma once
 
 #include "raytrace/error/picture_error.h"
@@ -13,14 +12,14 @@ namespace meninas {
 
 enum class WithErrorMap { no, yes };
 
-/// What is to be found out.
+/// The wanted report.
 enum class ErrorReport {
   none,
   figures, ///< and the line
   map      ///< these, and the layer `error`
 };
 
-/// What a picture was made of.
+/// The field, camera and settings that a picture was made of.
 struct PictureSource {
   const IrradianceField& field;
   const Camera& camera;
@@ -32,8 +31,8 @@ struct PictureSource {
 /// first, no part that does not matter.
 std::string describe_error(const PictureError& error);
 
-/// What to turn first where the error can be seen (2 %): the option that makes the largest
-/// part smaller, as "--diffuse direct would help most". Nothing where it cannot.
+/// The option that reduces the largest part of the error most, as "--diffuse direct would help most", if the error
+/// is visible (from 2 % on); otherwise nothing.
 std::optional<std::string> suggest_option(const PictureError& error, const TwoPassSettings& settings);
 
 /// Fills in the figures, and for the run's closing line the error with the option that would help

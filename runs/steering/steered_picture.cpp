@@ -13,31 +13,20 @@
 
 namespace meninas {
 
-namespace {
-
-/// The presets' link errors, between them and beyond: half of it for four times as many elements.
-double link_error_of(double elements) {
-  const PassOneQuality normal = pass_one_quality(Quality::normal);
-  const double error = normal.link_error * std::sqrt(normal.target_elements / elements);
-  return std::round(1e4 * error) * 1e-4;
-}
-
-} // namespace
-
-RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Parameters& knobs) {
+RunSettings with_parameters(RunSettings settings, const FreeParameters& free, const Parameters& parameters) {
   if (free.elements)
-    settings.elements = static_cast<int>(knobs.elements);
+    settings.elements = static_cast<int>(parameters.elements);
   if (!settings.link_error && mesh_cut(settings) == MeshCut::hierarchical)
-    settings.link_error = link_error_of(knobs.elements);
+    settings.link_error = link_error_for(parameters.elements);
   if (free.rays)
-    settings.rays = knobs.rays;
+    settings.rays = parameters.rays;
   if (free.samples)
-    settings.samples = knobs.samples;
-  settings.diffuse = knobs.term;
+    settings.samples = parameters.samples;
+  settings.diffuse = parameters.term;
   return settings;
 }
 
-FreeKnobs free_knobs(const RunSettings& settings) {
+FreeParameters free_parameters(const RunSettings& settings) {
   return {.elements = !settings.element_size && !settings.elements,
           .rays = !settings.rays && settings.form_factors == FormFactorMethod::rays,
           .samples = !settings.samples,
@@ -45,18 +34,18 @@ FreeKnobs free_knobs(const RunSettings& settings) {
                   tells_light_apart(settings)};
 }
 
-Parameters first_knobs(const RunSettings& settings) {
-  Parameters knobs;
+Parameters first_parameters(const RunSettings& settings) {
+  Parameters parameters;
   const QualityPreset draft = preset_of(Quality::draft);
   if (settings.element_size)
-    knobs.elements = draft.target_elements;
+    parameters.elements = draft.target_elements;
   if (settings.elements)
-    knobs.elements = *settings.elements;
-  knobs.rays = settings.rays.value_or(settings.form_factors == FormFactorMethod::rays ? knobs.rays
+    parameters.elements = *settings.elements;
+  parameters.rays = settings.rays.value_or(settings.form_factors == FormFactorMethod::rays ? parameters.rays
                                                                                       : draft.rays);
-  knobs.samples = settings.samples.value_or(knobs.samples);
-  knobs.term = settings.diffuse.value_or(knobs.term);
-  return knobs;
+  parameters.samples = settings.samples.value_or(parameters.samples);
+  parameters.term = settings.diffuse.value_or(parameters.term);
+  return parameters;
 }
 
 RunSettings settings_of(const SteeringRequest& request) {
@@ -99,8 +88,8 @@ RunEvents events_of(Steering& steering, bool may_end) {
   return events;
 }
 
-/// Pass one as these knobs want it, unless it is there.
-void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSettings& settings,
+/// Pass one as these parameters want it, unless it is there.
+void light_scene(Steering& steering, const Parameters& parameters, const TwoPassSettings& settings,
                  const RunEvents& events) {
   // What was found for one view is finer where its term shows it.
   const auto for_term = [&](DiffuseTerm term) {
@@ -108,9 +97,9 @@ void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSetti
     other.render.diffuse.term = term;
     return solves_for_view(*steering.lit->prepared, other);
   };
-  if (steering.lit_with && steering.lit_with->elements == knobs.elements &&
-      steering.lit_with->rays == knobs.rays &&
-      (steering.lit_with->term == knobs.term || !for_term(DiffuseTerm::direct)))
+  if (steering.lit_with && steering.lit_with->elements == parameters.elements &&
+      steering.lit_with->rays == parameters.rays &&
+      (steering.lit_with->term == parameters.term || !for_term(DiffuseTerm::direct)))
     return;
   steering.view.reset();
   steering.lit.reset();
@@ -123,7 +112,7 @@ void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSetti
   add_solution(figures, solution);
   warn_of_solution(*prepared, figures.solver, figures.closure, events);
   steering.lit = LitScene{std::move(prepared), std::move(solution.field)};
-  steering.lit_with = knobs;
+  steering.lit_with = parameters;
   steering.figures = figures;
 }
 
@@ -158,11 +147,11 @@ double work_of(const RayCounts& rays) {
 }
 
 /// The picture, by the view's field as it is where only samples change.
-void show(Steering& steering, const Parameters& knobs, const RunSettings& settings,
+void show(Steering& steering, const Parameters& parameters, const RunSettings& settings,
           const RunEvents& events, SteeredRun& run) {
   const SteeringRequest& request = steering.request;
   auto& view = steering.view;
-  if (view && knobs.term == DiffuseTerm::direct && settings.features.empty()) {
+  if (view && parameters.term == DiffuseTerm::direct && settings.features.empty()) {
     RunSettings by_field = settings;
     by_field.diffuse = DiffuseTerm::interpolated;
     run.picture = render_view({steering.lit->prepared, *view->field}, request.camera, request.size,
@@ -193,7 +182,7 @@ void add_costs(Steering& steering, const PictureError& error, SteeredRun& run) {
   measured.pass_one_cost = seconds.plan + seconds.mesh + seconds.form_factors + seconds.solve +
                            seconds.interpolate;
   measured.pass_two_cost = seconds.render;
-  if (steering.view && measured.knobs.term == DiffuseTerm::direct) {
+  if (steering.view && measured.parameters.term == DiffuseTerm::direct) {
     double& first = steering.view->seconds;
     if (first > 0.0)
       measured.pass_two_cost += first;
@@ -207,20 +196,20 @@ void add_costs(Steering& steering, const PictureError& error, SteeredRun& run) {
 
 } // namespace
 
-SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
+SteeredRun run_with(Steering& steering, const Parameters& parameters, bool may_end) {
   const SteeringRequest& request = steering.request;
-  const RunSettings settings = with_knobs(steering.settings, free_knobs(steering.settings), knobs);
+  const RunSettings settings = with_parameters(steering.settings, free_parameters(steering.settings), parameters);
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = request.size.width;
   two_pass.render.height = request.size.height;
   begin_stages(steering.events, picture_stages(settings, WithPassOne::yes));
   const RunEvents events = events_of(steering, may_end);
-  light_scene(steering, knobs, two_pass, events);
+  light_scene(steering, parameters, two_pass, events);
   steering.warned = true;
 
   const LitScene& lit = *steering.lit;
   SteeredRun run{{}, steering.figures, {}};
-  show(steering, knobs, settings, events, run);
+  show(steering, parameters, settings, events, run);
   Stopwatch watch;
   PictureErrorSettings how = error_settings(two_pass, sampled_elements(*lit.field.scene));
   constexpr int more = 2; // what is decided by it deserves more pixels than what is only said
@@ -232,12 +221,12 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   run.picture.finer.reset();
   run.figures.error_estimate = error;
   run.figures.seconds.estimate = watch.lap();
-  run.measured.knobs = knobs;
+  run.measured.parameters = parameters;
   add_costs(steering, error, run);
   run.measured.error = error;
   run.measured.pixels = double(request.size.width) * request.size.height;
   run.measured.divided = double(run.figures.solved_elements);
-  run.measured.samples_a_pixel = mean_count(run.picture.samples, knobs.samples);
+  run.measured.samples_a_pixel = mean_count(run.picture.samples, parameters.samples);
   run.measured.uncertain = uncertain_shares(run.picture.image, two_pass.render);
   return run;
 }

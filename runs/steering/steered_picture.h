@@ -1,7 +1,7 @@
 // One picture of a run that chooses its own settings, with what the next one can use of it.
 //
-// Pass one is kept where elements and rays stay what they are, the field of the view (raytrace/views/view_light.h) where
-// only samples change: the picture is the same to the bit as if all were made anew.
+// Pass one is kept where elements and rays stay what they are, the field of the view (raytrace/views/view_light.h)
+// where only samples change: the picture is the same to the bit as if all were made anew.
 // Costs are counted in rays where an error alone is wanted, so that every run chooses alike whatever else the
 // machine does, and in seconds where a time is.
 #pragma once
@@ -28,24 +28,24 @@ struct SteeringRequest {
   const Scene& scene;
   const Camera& camera;
   PictureSize size;
-  RunSettings settings; ///< what is set here stays; the other knobs are turned
+  RunSettings settings; ///< what is set here stays; the other parameters are turned
   Goal goal;
   double spent = 0.0;   ///< seconds of the goal's before
   double reserve = 0.0; ///< seconds of the goal's for what comes after
 };
 
-/// What is asked for, with adaptive samples where their number is free.
+/// The settings of the request, with adaptive samples where their number is free.
 /// The numbers that no parameter turns are those of `normal` below 3 %, else of a draft.
 RunSettings settings_of(const SteeringRequest& request);
 
-/// What may be turned: what the settings leave open.
-FreeKnobs free_knobs(const RunSettings& settings);
+/// The parameters that may be turned: those that the settings leave open.
+FreeParameters free_parameters(const RunSettings& settings);
 
-/// Of a quick look.
-Parameters first_knobs(const RunSettings& settings);
+/// The parameters of a quick look.
+Parameters first_parameters(const RunSettings& settings);
 
 /// The settings as they are with these parameters; the link error goes with the elements.
-RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Parameters& knobs);
+RunSettings with_parameters(RunSettings settings, const FreeParameters& free, const Parameters& parameters);
 
 /// The field of the view, which more samples leave as it is.
 struct KeptView {
@@ -58,8 +58,8 @@ struct KeptView {
 struct Steering {
   const SteeringRequest& request;
   const RunEvents& events;
-  RunSettings settings; ///< that knobs are turned of
-  FreeKnobs free;
+  RunSettings settings; ///< that parameters are turned of
+  FreeParameters free;
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   std::optional<LitScene> lit = {};
   RunFigures figures = {}; ///< of `lit`
@@ -67,7 +67,7 @@ struct Steering {
   std::optional<KeptView> view = {};
   bool warned = false;
 
-  /// What is counted: rays where an error alone is wanted, so that every run chooses alike; else seconds.
+  /// Cost is counted in rays if only an error is wanted, so that every run chooses alike; else in seconds.
   bool counts_rays() const { return !request.goal.seconds; }
 
   double spent() const;
@@ -82,6 +82,6 @@ struct SteeredRun {
 
 /// Makes a picture and estimates its error by twice as many pixels as are usual.
 /// Throws OutOfTime if `may_end` and the time is over.
-SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end);
+SteeredRun run_with(Steering& steering, const Parameters& parameters, bool may_end);
 
 } // namespace meninas

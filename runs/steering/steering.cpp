@@ -16,9 +16,9 @@ namespace {
 
 std::string describe_step(const SteeredStep& step, std::size_t number) {
   return fmt::format(
-      "step {}: {} elements, {} rays, {} samples, {}; {:.2f} s, about {} off", number,
+      "step {}: {} elements, {} rays, {} samples, {}; {:.2f} s, {} off", number,
       step.elements, step.rays, step.samples, name_of(step.term), step.seconds,
-      readable_percent(step.error));
+      about_percent(step.error));
 }
 
 void add_seconds(RunSeconds& sum, const RunSeconds& more, bool pass_one) {
@@ -40,25 +40,25 @@ void say_end(const SteeredChoice& choice, const RunEvents& events) {
   for (const std::string& option : choice.options)
     options += ' ' + option;
   if (choice.wanted_error && !choice.reached)
-    warn(events, fmt::format("an error of {} was not reached: it is about {}",
-                             readable_percent(*choice.wanted_error), readable_percent(kept.error)));
+    warn(events, fmt::format("an error of {} was not reached: it is {}",
+                             readable_percent(*choice.wanted_error), about_percent(kept.error)));
   note(events, fmt::format("kept step {}; the same picture again:{}", choice.kept + 1, options));
 }
 
 /// What did not do once will not do by being made again.
-bool was_made(const SteeredChoice& choice, const Parameters& knobs) {
+bool was_made(const SteeredChoice& choice, const Parameters& parameters) {
   return std::ranges::any_of(choice.steps, [&](const SteeredStep& step) {
-    return Parameters{step.wanted_elements, step.rays, step.samples, step.term} == knobs;
+    return Parameters{step.wanted_elements, step.rays, step.samples, step.term} == parameters;
   });
 }
 
-bool gathers(const MeasuredRun& run) { return run.knobs.term == DiffuseTerm::gather; }
+bool gathers(const MeasuredRun& run) { return run.parameters.term == DiffuseTerm::gather; }
 
 /// How the mesh's error falls, if two meshes have been seen by the same light.
 double mesh_exponent(const MeasuredRun& before, const MeasuredRun& now) {
-  if (before.knobs.elements == now.knobs.elements || gathers(before) != gathers(now))
+  if (before.parameters.elements == now.parameters.elements || gathers(before) != gathers(now))
     return before.mesh_exponent;
-  return before.knobs.elements < now.knobs.elements ? measured_mesh_exponent(before, now)
+  return before.parameters.elements < now.parameters.elements ? measured_mesh_exponent(before, now)
                                                     : measured_mesh_exponent(now, before);
 }
 
@@ -80,7 +80,7 @@ struct Search {
     const auto was = steering.lit_with;
     std::optional<SteeredRun> run;
     try {
-      run = run_with(steering, next.knobs, best.has_value());
+      run = run_with(steering, next.parameters, best.has_value());
     } catch (const OutOfTime&) {
       note(events, "the time is over before the next picture is ready");
       return false;
@@ -90,18 +90,18 @@ struct Search {
     const MeasuredRun& costs = run->measured;
     rays += (solved ? costs.pass_one_cost : 0.0) + costs.pass_two_cost + costs.estimate_cost;
     const double error = run->measured.error.total;
-    choice.steps.push_back({next.knobs.elements, run->figures.elements, next.knobs.rays,
-                            next.knobs.samples, next.knobs.term, watch.lap(), error,
+    choice.steps.push_back({next.parameters.elements, run->figures.elements, next.parameters.rays,
+                            next.parameters.samples, next.parameters.term, watch.lap(), error,
                             next.forecast.error, next.why});
     note(events, describe_step(choice.steps.back(), choice.steps.size()));
     double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
     if (best && error >= worthwhile * this->error())
-      steering.free = worth_turning(steering.free, best->measured, run->measured);
+      steering.free = worth_changing(steering.free, best->measured, run->measured);
     if (!best || error < this->error()) {
       if (best && gathers(run->measured) && !gathers(best->measured)) {
         // What elements reflect may well be known better by finer ones,
         // whatever they did to what is between vertices.
-        steering.free.elements = free_knobs(steering.settings).elements;
+        steering.free.elements = free_parameters(steering.settings).elements;
         exponent = MeasuredRun{}.mesh_exponent;
       }
       best = std::move(run);
@@ -123,14 +123,14 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
   constexpr double at_once =
       0.125; // of the error: parts so much smaller are not known well enough to be met yet
   const RunSettings settings = settings_of(request);
-  Steering steering{request, events, settings, free_knobs(settings)};
+  Steering steering{request, events, settings, free_parameters(settings)};
   const double wanted = request.goal.error.value_or(0.0);
 
   Search search{steering, events};
   SteeredChoice& choice = search.choice;
   choice.wanted_error = request.goal.error;
   choice.wanted_seconds = request.goal.seconds;
-  NextRun next{first_knobs(settings), {}, "a quick look"};
+  NextRun next{first_parameters(settings), {}, "a quick look"};
   for (int k = 0; k < max_steps && search.step(next); ++k) {
     choice.reached = !request.goal.error || search.error() <= wanted;
     if (request.goal.error && choice.reached)
@@ -142,12 +142,12 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
                  steering.counts_rays()
                      ? max_growth * search.rays
                      : std::min(time_margin * steering.left(), max_growth * steering.spent()));
-    if (next.knobs == measured.knobs || was_made(choice, next.knobs))
+    if (next.parameters == measured.parameters || was_made(choice, next.parameters))
       break;
     note(events, fmt::format("next, because of {}", next.why));
   }
   SteeredRun& best = *search.best;
-  choice.options = options_of(with_knobs(settings, free_knobs(settings), best.measured.knobs));
+  choice.options = options_of(with_parameters(settings, free_parameters(settings), best.measured.parameters));
   say_end(choice, events);
   const int threads = figures.threads;
   search.seconds.load = figures.seconds.load;

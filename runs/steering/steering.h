@@ -5,8 +5,8 @@
 // then the quickest settings that are foretold to do, or the best that fit (steering_model.h),
 // and again, until the estimate is below what was wanted or the time is over.
 // An error alone is wanted by counted rays, never by the clock: the same choice and the same bits on every run.
-// A run that changes pass two alone keeps pass one, and one that changes samples alone the field of the view. A parameter whose change did not help is not
-// changed again. The picture with the smallest estimate is kept.
+// A run that changes pass two alone keeps pass one, and one that changes samples alone the field of the view. A
+// parameter whose change did not help is not changed again. The picture with the smallest estimate is kept.
 // Samples of pixels are adaptive (raytrace/pixels/sample_choice.h), to the wanted error in every pixel.
 #pragma once
 

@@ -12,16 +12,16 @@
 
 namespace meninas {
 
-/// Which knob made a point from another.
-struct KnobTurn {
-  std::string knob; ///< "rays"
+/// The change of a parameter that made a point from another.
+struct ParameterChange {
+  std::string parameter; ///< "rays"
   std::string from, to;
   std::size_t parent = 0; ///< index of the other point
 };
 
 struct TradePoint {
   RunSettings settings;
-  std::vector<KnobTurn> turns; ///< none, of points that were there from the beginning; else one
+  std::vector<ParameterChange> turns; ///< none, of points that were there from the beginning; else one
   std::vector<double> seconds; ///< from the scene in memory to the picture, by repetition
   std::vector<double> processor_seconds; ///< of all threads
   std::vector<double> errors;            ///< against the reference (image/metrics/relative_error.h)

@@ -54,15 +54,15 @@ Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
             {"estimate", point.estimate.total},
             {"front", on_front},
             {"stages", stages_json(point.stages)}};
-  for (const KnobTurn& turn : point.turns)
+  for (const ParameterChange& turn : point.turns)
     json["turn"] = {
-        {"knob", turn.knob}, {"from", turn.from}, {"to", turn.to}, {"parent", turn.parent}};
+        {"parameter", turn.parameter}, {"from", turn.from}, {"to", turn.to}, {"parent", turn.parent}};
   return json;
 }
 
 /// How much accuracy a second buys: the fall of log error less its price,
 /// half the rise of log seconds, as samples at random would pay.
-double worth(const KnobWorth& knob) { return -std::log(knob.error) - 0.5 * std::log(knob.seconds); }
+double worth(const ParameterWorth& parameter) { return -std::log(parameter.error) - 0.5 * std::log(parameter.seconds); }
 
 /// "+10 % time", "-3 % error", "the same time", "4.2 times the time"
 std::string readable_change(double ratio, std::string_view what) {
@@ -73,32 +73,32 @@ std::string readable_change(double ratio, std::string_view what) {
                          : fmt::format("{:.2g} times the {}", ratio, what);
 }
 
-std::string conclusion_of(const std::vector<KnobWorth>& knobs) {
-  if (knobs.empty())
+std::string conclusion_of(const std::vector<ParameterWorth>& parameters) {
+  if (parameters.empty())
     return "The budget was too short to change a setting of the draft.";
-  const auto say = [](const KnobWorth& k) {
-    return fmt::format("{} from {} to {} ({}, {})", k.turn.knob, k.turn.from, k.turn.to,
+  const auto say = [](const ParameterWorth& k) {
+    return fmt::format("{} from {} to {} ({}, {})", k.turn.parameter, k.turn.from, k.turn.to,
                        readable_change(k.seconds, "time"), readable_change(k.error, "error"));
   };
-  if (worth(knobs.front()) <= 0.0)
-    return "Draft is already efficient here. The best single change is " + say(knobs.front()) + ".";
-  return "From the draft, change first " + say(knobs.front()) +
-         (knobs.size() > 1 && worth(knobs[1]) > 0.0 ? ", then " + say(knobs[1]) : "") + ".";
+  if (worth(parameters.front()) <= 0.0)
+    return "Draft is already efficient here. The best single change is " + say(parameters.front()) + ".";
+  return "From the draft, change first " + say(parameters.front()) +
+         (parameters.size() > 1 && worth(parameters[1]) > 0.0 ? ", then " + say(parameters[1]) : "") + ".";
 }
 
 Json json_of(const TradeResult& result) {
   const auto front = pareto_front(result.points);
-  Json points = Json::array(), knobs = Json::array();
+  Json points = Json::array(), parameters = Json::array();
   for (std::size_t k = 0; k < result.points.size(); ++k)
     points.push_back(point_json(result, k, std::ranges::find(front, k) != front.end()));
-  const std::vector<KnobWorth> worths = knob_worths(result);
-  for (const KnobWorth& knob : worths)
-    knobs.push_back({{"knob", knob.turn.knob},
-                     {"from", knob.turn.from},
-                     {"to", knob.turn.to},
-                     {"point", knob.point},
-                     {"seconds_ratio", knob.seconds},
-                     {"error_ratio", knob.error}});
+  const std::vector<ParameterWorth> worths = parameter_worths(result);
+  for (const ParameterWorth& parameter : worths)
+    parameters.push_back({{"parameter", parameter.turn.parameter},
+                     {"from", parameter.turn.from},
+                     {"to", parameter.turn.to},
+                     {"point", parameter.point},
+                     {"seconds_ratio", parameter.seconds},
+                     {"error_ratio", parameter.error}});
   const TradeReference& reference = result.reference;
   Json units;
   for (const char* key : {"seconds", "processor_seconds", "stages", "budget", "spent"})
@@ -121,27 +121,27 @@ Json json_of(const TradeResult& result) {
             {"floor", reference.floor}}},
           {"front", front},
           {"points", std::move(points)},
-          {"knobs", std::move(knobs)},
+          {"parameters", std::move(parameters)},
           {"conclusion", conclusion_of(worths)},
           {"version", program_version()}};
 }
 
 } // namespace
 
-std::vector<KnobWorth> knob_worths(const TradeResult& result) {
-  std::vector<KnobWorth> knobs;
+std::vector<ParameterWorth> parameter_worths(const TradeResult& result) {
+  std::vector<ParameterWorth> parameters;
   const std::size_t draft = std::min<std::size_t>(1, result.points.size() - 1);
   for (std::size_t k = 0; k < result.points.size(); ++k)
-    for (const KnobTurn& turn : result.points[k].turns) {
+    for (const ParameterChange& turn : result.points[k].turns) {
       const TradePoint &before = result.points[turn.parent], &after = result.points[k];
       if (turn.parent != draft || !(mean_of(before.errors) > 0.0) || !(mean_of(after.errors) > 0.0))
         continue;
-      knobs.push_back({turn, k, mean_of(after.seconds) / mean_of(before.seconds),
+      parameters.push_back({turn, k, mean_of(after.seconds) / mean_of(before.seconds),
                        mean_of(after.errors) / mean_of(before.errors)});
     }
   std::ranges::stable_sort(
-      knobs, [](const KnobWorth& a, const KnobWorth& b) { return worth(a) > worth(b); });
-  return knobs;
+      parameters, [](const ParameterWorth& a, const ParameterWorth& b) { return worth(a) > worth(b); });
+  return parameters;
 }
 
 std::string trade_json(const TradeResult& result) { return text_of(json_of(result), 2) + '\n'; }

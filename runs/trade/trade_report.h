@@ -1,4 +1,4 @@
-// What a sweep has found, as figures, as a table and as a page.
+// The report of a sweep: as figures, as a table and as a page.
 #pragma once
 
 #include "runs/trade/trade_point.h"
@@ -8,7 +8,7 @@
 
 namespace meninas {
 
-/// What errors are measured against.
+/// The reference against which errors are measured.
 struct TradeReference {
   std::string kind;     ///< "path tracer" or "file"
   std::string name;     ///< of the file, or how long it was traced
@@ -28,23 +28,23 @@ struct TradeResult {
   std::vector<TradePoint> points;
 };
 
-/// What one turn of a knob did at its place: the ratios of seconds and errors,
-/// and what is left when the time is taken off as chance would, error ~ seconds^-slope.
-struct KnobWorth {
-  KnobTurn turn;
+/// The worth of one turn of a parameter at its place: the ratios of seconds and errors,
+/// and the gain left after the time is accounted for by error ~ seconds^-slope.
+struct ParameterWorth {
+  ParameterChange turn;
   std::size_t point = 0;
   double seconds = 1.0, error = 1.0; ///< after over before
 };
 /// Turns from the draft alone, those that bring most accuracy per second first:
 /// a fall of the error that costs no time is best, a rise worst.
-std::vector<KnobWorth> knob_worths(const TradeResult& result);
+std::vector<ParameterWorth> parameter_worths(const TradeResult& result);
 
 /// {"scene", "camera", "width", "height", "threads", "budget", "spent", "reference":
 /// {"kind", "name", "seconds", "noise", "floor"}, "front":
 /// [indices], "points": [{"id", "command", "options", "elements", "seconds", "seconds_spread",
 /// "processor_seconds", "error", "error_spread", "runs", "estimate", "front", "turn"?:
-/// {"knob", "from", "to", "parent"}, "stages": {...}}], "knobs":
-/// [{"knob", "from", "to", "point", "seconds_ratio", "error_ratio"}], "conclusion", "version"}.
+/// {"parameter", "from", "to", "parent"}, "stages": {...}}], "parameters":
+/// [{"parameter", "from", "to", "point", "seconds_ratio", "error_ratio"}], "conclusion", "version"}.
 std::string trade_json(const TradeResult& result);
 
 /// A line a point: id, front, seconds, processor_seconds, error, estimate, runs, elements, command.

@@ -21,7 +21,7 @@ struct Sweeping {
   double left(double share) const { return share * settings.budget - settings.spent(); }
 
   /// Whether it was new.
-  bool add(const RunSettings& chosen, std::vector<KnobTurn> turns) {
+  bool add(const RunSettings& chosen, std::vector<ParameterChange> turns) {
     if (!tried.insert(options_of(chosen)).second)
       return false;
     TradePoint point;
@@ -40,32 +40,32 @@ struct Sweeping {
 
 /// What share of a picture's squared error a finer turn may take away,
 /// or a coarser one touches, by the picture's own estimate of its parts.
-double at_stake(const KnobTurn& turn, const PictureError& e) {
+double at_stake(const ParameterChange& turn, const PictureError& e) {
   const double all = e.total * e.total;
   if (!(all > 0.0))
     return 0.0;
   const auto share = [&](double part, double of_it) { return of_it * part * part / all; };
-  if (turn.knob == "elements")
+  if (turn.parameter == "elements")
     return share(e.mesh, 0.4);
-  if (turn.knob == "link-error")
+  if (turn.parameter == "link-error")
     return share(e.mesh, 0.6);
-  if (turn.knob == "diffuse")
+  if (turn.parameter == "diffuse")
     return turn.to == name_of(DiffuseTerm::gather) ? share(std::hypot(e.mesh, e.form_factors), 0.9)
                                                    : share(e.mesh_direct, 1.0);
-  if (turn.knob == "rays" || turn.knob == "hemicube-resolution")
+  if (turn.parameter == "rays" || turn.parameter == "hemicube-resolution")
     return share(e.form_factors, 0.55);
-  if (turn.knob == "samples")
+  if (turn.parameter == "samples")
     return share(e.pixels, 0.9);
-  if (turn.knob == "pixel-error")
+  if (turn.parameter == "pixel-error")
     return share(e.pixels, 0.6);
   return 0.0;
 }
 
 /// The finer ones first, those with most at stake before others;
 /// then the coarser ones, those with least.
-std::vector<TurnedSettings> ranked_turns(const TradePoint& point, const TradeScene& scene) {
-  std::vector<TurnedSettings> turns = turned(point.settings, scene);
-  const auto rank = [&](const TurnedSettings& next) {
+std::vector<ChangedSettings> ranked_turns(const TradePoint& point, const TradeScene& scene) {
+  std::vector<ChangedSettings> turns = turned(point.settings, scene);
+  const auto rank = [&](const ChangedSettings& next) {
     const double stake = at_stake(next.turn, point.estimate);
     return next.finer ? stake : -1.0 - stake;
   };
@@ -75,7 +75,7 @@ std::vector<TurnedSettings> ranked_turns(const TradePoint& point, const TradeSce
 
 /// A turn takes about as long as what it was turned from, a finer one twice as long;
 /// gathering at every hit tens of times.
-double expected_seconds(const TradePoint& parent, const TurnedSettings& next) {
+double expected_seconds(const TradePoint& parent, const ChangedSettings& next) {
   constexpr double longer = 2.5, gathering = 30.0;
   if (next.settings.diffuse == DiffuseTerm::gather &&
       parent.settings.diffuse != DiffuseTerm::gather)
@@ -83,14 +83,14 @@ double expected_seconds(const TradePoint& parent, const TurnedSettings& next) {
   return (next.finer ? longer : 1.0) * mean_of(parent.seconds);
 }
 
-bool turn_from(Sweeping& sweeping, std::size_t parent, TurnedSettings next) {
+bool turn_from(Sweeping& sweeping, std::size_t parent, ChangedSettings next) {
   next.turn.parent = parent;
   return sweeping.add(next.settings, {next.turn});
 }
 
-/// Every knob, one turn from a point.
+/// Every parameter, one turn from a point.
 void turn_all(Sweeping& sweeping, std::size_t parent, double share) {
-  for (TurnedSettings& next : ranked_turns(sweeping.points[parent], sweeping.scene)) {
+  for (ChangedSettings& next : ranked_turns(sweeping.points[parent], sweeping.scene)) {
     if (sweeping.left(share) < expected_seconds(sweeping.points[parent], next))
       continue;
     turn_from(sweeping, parent, std::move(next));
@@ -127,7 +127,7 @@ std::vector<Gap> gaps_of(const std::vector<TradePoint>& points) {
 bool look_into(Sweeping& sweeping, const Gap& gap, double share) {
   const auto try_turns = [&](std::size_t parent, bool finer) {
     const TradePoint& point = sweeping.points[parent];
-    for (TurnedSettings& next : ranked_turns(point, sweeping.scene))
+    for (ChangedSettings& next : ranked_turns(point, sweeping.scene))
       if (next.finer == finer && sweeping.left(share) >= expected_seconds(point, next) &&
           turn_from(sweeping, parent, std::move(next)))
         return true;
@@ -150,17 +150,17 @@ void repeat_front(Sweeping& sweeping) {
 
 std::vector<TradePoint> sweep(const RunSettings& base, const TradeScene& scene,
                               const MeasurePoint& measure, const SweepSettings& settings) {
-  constexpr double for_knobs = 0.5, for_gaps = 0.8;
+  constexpr double for_parameters = 0.5, for_gaps = 0.8;
   Sweeping sweeping{base, scene, measure, settings};
   for (const RunSettings& first : first_settings(base)) {
     // A preset has four to eight times the elements of the one before, and as many times the rays.
     constexpr double longer = 25.0;
     if (sweeping.points.size() < 2 ||
-        sweeping.left(for_knobs) > longer * mean_of(sweeping.points.back().seconds))
+        sweeping.left(for_parameters) > longer * mean_of(sweeping.points.back().seconds))
       sweeping.add(first, {});
   }
   const std::size_t draft = std::min<std::size_t>(1, sweeping.points.size() - 1);
-  turn_all(sweeping, draft, for_knobs);
+  turn_all(sweeping, draft, for_parameters);
   for (bool found = true; found;) {
     found = false;
     for (const Gap& gap : gaps_of(sweeping.points))

@@ -1,16 +1,14 @@
-// Which settings a budget is spent on.
+// The sweep over settings within a budget of seconds.
 //
-// First a quick look and the presets that fit, then every knob one turn from the draft,
-// as far as half of the budget goes. Then the budget goes where the front is uncertain:
-// the widest gap between neighbours of the front, in the logarithms of seconds and error,
-// is looked into with turns of the knobs of its ends, finer ones of the faster, coarser ones
-// of the slower, first those of the largest part of the error by the pictures' own estimates;
-// the open end, more accurate than all so far, counts as a gap as well.
-// Its last fifth repeats the points of the front with other seeds:
-// what is measured once is a matter of luck.
+// First a quick look and the presets that fit, then every parameter one turn from the draft,
+// as far as half of the budget goes. The rest goes to the widest gap between neighbours of the Pareto front
+// (log seconds, log error): refine one parameter of its faster end or coarsen one of its slower end, starting
+// with the parameter behind the largest part of the estimated error. The open end counts as a gap.
+// The last fifth of the budget repeats the points of the front with other seeds, because a single
+// measurement is a matter of luck.
 #pragma once
 
-#include "runs/trade/trade_knobs.h"
+#include "runs/trade/trade_parameters.h"
 
 #include <functional>
 

@@ -33,7 +33,7 @@ struct PackedNumbers {
 void add_table(PackedNumbers& packed, const std::string& name,
                std::span<const std::uint32_t> values, std::size_t columns);
 
-/// How much time packing may take: for a file that is kept, or for one that is waited for.
+/// The effort of packing: for a file that is kept, or for one that is waited for.
 enum class PackedSize { smallest, quick };
 
 /// RFC 1950, as DecompressionStream("deflate") takes it.

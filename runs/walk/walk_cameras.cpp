@@ -22,11 +22,11 @@ double exposure_from(const IrradianceField& field, const Camera& camera) {
 /// For files without a camera: standing in the middle of the scene, along its longer side.
 Camera inside(const Bounds& bounds) {
   const Vec3 size = bounds.high - bounds.low;
-  constexpr double eye_height = 1.6, most_of_height = 0.6;
+  constexpr double eye_height = 1.6, max_of_height = 0.6;
   Camera camera;
   camera.name = "inside";
   camera.position = 0.5 * bounds.low + 0.5 * bounds.high;
-  camera.position.y = bounds.low.y + std::min(eye_height, most_of_height * size.y);
+  camera.position.y = bounds.low.y + std::min(eye_height, max_of_height * size.y);
   camera.forward = size.x > size.z ? Direction(1.0, 0.0, 0.0) : Direction(0.0, 0.0, -1.0);
   camera.right = glm::cross(camera.forward, camera.up);
   return camera;

@@ -10,8 +10,8 @@
 
 namespace meninas {
 
-/// Those of the file, else a view of all of it and one from inside. `exposure`, in stops, is chosen for each where
-/// it is not given, by a picture of 96 x 96 pixels of the field alone.
+/// The cameras of the file, else a view of all of it and one from inside. `exposure`, in stops, is chosen for each
+/// where it is not given, by a picture of 96 x 96 pixels of the field alone.
 std::vector<WalkCamera> walk_cameras(const IrradianceField& field, const RunSettings& settings,
                                      const std::optional<double>& exposure);
 

@@ -10,14 +10,14 @@ namespace meninas {
 
 void check_walk_lamps(const std::string& file, std::size_t lamps, std::size_t vertices) {
   constexpr const char* advice = "give several the same `extras.lamp`, or go by --by-lamp material";
-  if (lamps > most_walk_lamps)
+  if (lamps > max_walk_lamps)
     throw InputError(file, "", fmt::format("has {} lamps, and a page has dimmers for {} at the most: {}",
-                                           lamps, most_walk_lamps, advice));
-  if (lamps * vertices > most_lamp_vertices)
+                                           lamps, max_walk_lamps, advice));
+  if (lamps * vertices > max_lamp_vertices)
     throw InputError(file, "",
                      fmt::format("has {} lamps at {} vertices, and a page takes {} lamps at so many: {}, "
                                  "or try --quality draft",
-                                 lamps, vertices, most_lamp_vertices / vertices, advice));
+                                 lamps, vertices, max_lamp_vertices / vertices, advice));
 }
 
 float scale_of_halves(std::span<const glm::vec3> irradiance) {

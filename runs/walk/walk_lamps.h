@@ -22,9 +22,9 @@ struct WalkLamp {
 };
 
 /// More are refused: nobody finds theirs among so many, and a browser has to add them up.
-inline constexpr std::size_t most_walk_lamps = 64;
+inline constexpr std::size_t max_walk_lamps = 64;
 /// Lamps times vertices: 96 MB of halves in the browser.
-inline constexpr std::size_t most_lamp_vertices = 16'000'000;
+inline constexpr std::size_t max_lamp_vertices = 16'000'000;
 
 /// Throws InputError, naming the file, where a page would have more. `vertices` may not be known yet: 0.
 void check_walk_lamps(const std::string& file, std::size_t lamps, std::size_t vertices);
@@ -35,7 +35,7 @@ float scale_of_halves(std::span<const glm::vec3> irradiance);
 /// Light at every vertex in units of `scale`, by rows: the bits of green, and those of red and of blue less green's.
 std::vector<std::uint32_t> halves_by_green(std::span<const glm::vec3> irradiance, float scale);
 
-/// What each vertex receives under the factors of the lamps.
+/// The irradiance of each vertex under the factors of the lamps, W/m^2.
 std::vector<glm::vec3> under_factors(std::span<const std::vector<glm::vec3>> irradiance_by_lamp,
                                      std::span<const WalkLamp> lamps);
 

@@ -1,4 +1,4 @@
-// How a page shows a material, in a few numbers: what pass two makes of it, brought to terms that a
+// The look of a material on a page, in a few numbers: the shading of pass two in terms that a
 // shader computes at every pixel (page/room_shader.js).
 //
 //   L = L_e + rho H / pi,   rho = albedo c + rest
@@ -43,7 +43,7 @@ struct WalkLook {
   std::string_view name = {}; ///< of the material, which outlives it
 };
 
-/// What a face is to the page besides its material.
+/// The role of a face in the page besides its material.
 enum class WalkFace {
   plain,  ///< it has no mirror world
   mirror, ///< it has one

@@ -161,13 +161,13 @@ json cameras_json(const std::vector<WalkCamera>& cameras, const Point3& middle) 
 /// What halves times this are radiances of the sky: up to the brightest, unless the rest would then be
 /// too dark for halves. What is clipped then is millions of times as bright as the mean.
 double sky_scale(std::span<const glm::vec3> texels) {
-  constexpr double brightest = 65504.0, least_mean = 0.01;
+  constexpr double brightest = 65504.0, min_mean = 0.01;
   double most = 0.0, sum = 0.0;
   for (const glm::vec3& texel : texels) {
     most = std::max(most, double{largest(texel)});
     sum += double{largest(texel)} / double(texels.size());
   }
-  return most > 0.0 ? std::min(most / brightest, sum / least_mean) : 1.0;
+  return most > 0.0 ? std::min(most / brightest, sum / min_mean) : 1.0;
 }
 
 /// The sky in at most 256 x 128 texels, row by row from the zenith.
@@ -251,11 +251,11 @@ double top_irradiance(std::span<const glm::vec3> irradiance) {
 std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warnings) {
   const Scene& scene = page.field.scene->scene;
   const std::size_t triangles = page.room.indices.size() / 3;
-  if (triangles > most_walk_triangles)
+  if (triangles > max_walk_triangles)
     throw InputError(scene.file, "",
                      fmt::format("its solved mesh has {} triangles, and a page takes {} at the "
                                  "most: try --quality draft or fewer --elements",
-                                 triangles, most_walk_triangles));
+                                 triangles, max_walk_triangles));
   check_walk_lamps(scene.file, page.lamps.size(), page.room.vertices.size());
   Pictures pictures(scene, warnings);
   const PageVertices vertices = page_vertices(page.room, page.lamps.size(), page.numbering);
@@ -276,7 +276,7 @@ std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warni
             {"background", array_of(scene.background.constant)},
             {"sky", sky_json(scene.background, groups.sun != no_lamp)},
             {"transform", std::string(name_of(page.transform))},
-            {"leastThroughput", page.min_throughput},
+            {"minThroughput", page.min_throughput},
             {"luminousEfficacy", page.luminous_efficacy},
             {"top", top_irradiance(page.lamps.empty()
                                        ? irradiance_of(page.room)

@@ -33,7 +33,7 @@ struct WalkPage {
 };
 
 /// Pages with more triangles are refused: a browser would not draw them.
-inline constexpr std::size_t most_walk_triangles = 3'000'000;
+inline constexpr std::size_t max_walk_triangles = 3'000'000;
 
 /// Its JSON. `warnings` gets what had to be left out, a sentence each. Throws InputError where a browser would
 /// not draw it, naming the scene's file.

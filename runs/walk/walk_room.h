@@ -4,7 +4,7 @@
 // element_triangles.h), with the irradiance H, W/m^2, at their corners: the field itself, linear
 // between them (walk_light.h).
 //
-// Of a field that knows lamps apart the same is there of each of them: H = sum of H_l.
+// If the field knows lamps apart, the same is there for each of them: H = sum of H_l.
 //
 // Faces without a field (ideal mirrors, panes, dark sides) are the scene's triangles. All fronts are
 // counter-clockwise. The backs of single-sided surfaces are not there: the eye looks through them,

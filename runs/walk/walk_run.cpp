@@ -62,7 +62,7 @@ LitScene lit_scene(const WalkRequest& request, Scene scene, const RunEvents& eve
 void leave_out_unasked_lamps(const WalkRequest& request, const RunEvents& events, LitScene& lit) {
   const std::size_t lamps = lit.field.by_lamp.size(), vertices = lit.field.mesh().vertices.size();
   const bool asked = !request.solution || !request.settings.lamp_factors.empty();
-  if (asked || (lamps <= most_walk_lamps && lamps * vertices <= most_lamp_vertices))
+  if (asked || (lamps <= max_walk_lamps && lamps * vertices <= max_lamp_vertices))
     return;
   warn(events, fmt::format("the page has no dimmers: the solution has {} lamps at {} vertices", lamps, vertices));
   lit.field.by_lamp.clear();

@@ -1,4 +1,4 @@
-// What a page keeps of the vertices and triangles of a room: tables of whole numbers (packed_numbers.h).
+// The vertices and triangles of a room in a page: tables of whole numbers (packed_numbers.h).
 //
 //   position     from the middle of the scene, by the step of `PageVertices`
 //   irradiance   halves times a scale (walk_lamps.h): of the room, and of each lamp, "lamp0" and so on
@@ -9,8 +9,8 @@
 //   triangles    three vertices each;   elementEnds   those of the room
 //
 // Corners of a batch that are the same row in all of these are one vertex. A room has many: each facet of a finely
-// tessellated object has corners of its own, and where the light is the same they differ in nothing. What is told by
-// triangle alone, as the slope of black backs, the page finds from its triangles.
+// tessellated object has corners of its own, and where the light is the same they differ in nothing. The page computes
+// data of single triangles, as the slope of black backs, from its triangles.
 #pragma once
 
 #include "runs/walk/packed_numbers.h"
@@ -20,8 +20,8 @@
 
 namespace meninas {
 
-/// Whether the page has a vertex for each of the room, in its order, as it must where other light of the room's vertices
-/// is to follow; or one for all that are alike, in the order in which the triangles meet them.
+/// Whether the page has a vertex for each of the room, in its order, as it must where other light of the room's
+/// vertices is to follow; or one for all that are alike, in the order in which the triangles meet them.
 enum class VertexNumbering { by_room, joined };
 
 struct PageVertices {

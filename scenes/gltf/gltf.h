@@ -4,10 +4,10 @@
 // triangles, strips and fans, indexed or not; strided and sparse accessors, Draco and meshopt;
 // metallic-roughness materials with the extensions KHR_materials_emissive_strength,
 // _ior, _specular, _transmission, _volume, KHR_texture_transform, KHR_lights_punctual,
-// perspective and orthographic cameras; the state of settings.h, see state/. Negative determinants keep the front in front.
-// What is left out is named in Scene::warnings or Scene::ignored.
+// perspective and orthographic cameras; the state of settings.h, see state/. Negative determinants keep the front in
+// front. Features that are left out are named in Scene::warnings or Scene::ignored.
 // Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed
-// file with finite geometry, OutputError for what is over the limit of memory.
+// file with finite geometry, OutputError for scenes over the limit of memory.
 #pragma once
 
 #include "scenes/gltf/settings.h"

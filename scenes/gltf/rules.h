@@ -1,5 +1,4 @@
-// What the loader reads from a glTF file, as rules:
-// which properties, of which type, pointing where.
+// The properties that the loader reads from a glTF file, as rules: their types, and the arrays they refer to.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which scene of a file is read, in which state, and what the file may ask for.
+// Settings of the loader: the scene of a file that is read, its state, and the rights of the file.
 #pragma once
 
 #include <compare>
@@ -9,11 +9,11 @@
 
 namespace meninas {
 
-/// Which files a glTF file may name:
+/// The files that a glTF file may name:
 /// a stranger's file must not make the program read the user's others.
 enum class ExternalFiles { inside_folder, anywhere };
 
-/// What the numbers of a file stand for: W/m^2/sr, W/sr and W/m^2, or cd/m^2, candela and lux.
+/// The units of the numbers of a file: W/m^2/sr, W/sr and W/m^2, or cd/m^2, candela and lux.
 enum class LightUnits { radiometric, photometric };
 
 /// In which of its states a file is shown, and how its numbers are taken.
@@ -21,7 +21,8 @@ struct SceneState {
   std::optional<std::string> variant = std::nullopt; ///< of materials: KHR_materials_variants
   std::optional<double> at = std::nullopt; ///< seconds into its animations; the rest pose otherwise
   double light_scale = 1.0; ///< times the intensities of its KHR_lights_punctual
-  /// Of emission and KHR_lights_punctual; as the file says (asset.extras.light_units) or radiometric otherwise.
+  /// The units of emission and KHR_lights_punctual; as the file says (asset.extras.light_units) or radiometric
+  /// otherwise.
   std::optional<LightUnits> units = std::nullopt;
   double luminous_efficacy = 683.0;           ///< lm/W: divides what is photometric
   std::map<std::string, std::string> luminaires = {}; ///< IES files by the node whose light they replace

@@ -54,7 +54,7 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
                                            std::string_view key, const std::string& material,
                                            Findings& findings);
 
-/// Which sets of texture coordinates the textures of a material ask for.
+/// The sets of texture coordinates that the textures of a material ask for.
 std::set<std::uint64_t> texcoord_sets(const Json& material);
 
 /// Replaces the file's texture indices in the materials by textures of the scene,
@@ -76,14 +76,14 @@ void read_lights(const Document& document, std::span<const PlacedNode> nodes, Sc
 std::string first_name(const Document& document, std::size_t node, std::string_view array,
                        std::size_t index, std::string_view kind);
 
-/// Those of EXT_lights_area.
+/// Reads the lights of EXT_lights_area.
 void read_area_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                       Findings& findings);
 
 /// The settings' units; else what the file's asset.extras.light_units says, which is told; else radiometric.
 LightUnits light_units_of(const Document& document, Findings& findings);
 
-/// What photometric numbers of the file are divided by: K lm/W, or 1 where they are radiometric.
+/// The divisor of the file's light: K lm/W for photometric numbers, 1 for radiometric ones.
 inline double light_unit(const Document& document) {
   const SceneState& state = document.settings.state;
   return state.units == LightUnits::photometric ? state.luminous_efficacy : 1.0;

@@ -20,7 +20,7 @@ struct FileNode {
 std::vector<FileNode> read_node_tree(const std::filesystem::path& file,
                                      const GltfSettings& settings = {});
 
-/// What a name stands for.
+/// The nodes that a name stands for.
 struct NamedNodes {
   std::vector<NodeId> nodes;
   std::size_t below = 0; ///< how many nodes with meshes are below a node with a mesh, left out

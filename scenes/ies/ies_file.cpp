@@ -10,7 +10,7 @@ namespace meninas {
 
 namespace {
 
-constexpr double most_angles = 10'000.0, most_values = 4e6, brightest = 1e12;
+constexpr double max_angles = 10'000.0, max_values = 4e6, brightest = 1e12;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ',' || c == '\x1a' || c == '\0';
@@ -65,8 +65,8 @@ public:
   /// A number that counts, at least 1.
   std::size_t count(const std::string& name) {
     const double value = number(name);
-    if (!(value >= 1.0 && value <= most_angles && value == std::floor(value)))
-      fail(fmt::format("{} is {:g}, not from 1 to {:g}", name, value, most_angles));
+    if (!(value >= 1.0 && value <= max_angles && value == std::floor(value)))
+      fail(fmt::format("{} is {:g}, not from 1 to {:g}", name, value, max_angles));
     return static_cast<std::size_t>(value);
   }
 
@@ -139,7 +139,7 @@ Head read_numbers(Reader& reader, Edition edition) {
   head.factor = reader.not_negative("the candela multiplier");
   head.vertical = reader.count("the number of vertical angles");
   head.horizontal = reader.count("the number of horizontal angles");
-  if (double(head.vertical) * double(head.horizontal) > most_values)
+  if (double(head.vertical) * double(head.horizontal) > max_values)
     reader.fail(fmt::format("{} x {} angles are too many", head.vertical, head.horizontal));
   head.photometry = photometry_of(reader);
   for (const char* unused : {"the unit of lengths", "the width", "the length", "the height"})

@@ -16,7 +16,7 @@
 
 namespace meninas {
 
-/// What is wrong with the text, and in which line, from 1 on.
+/// A problem of the text, and its line, from 1 on.
 struct IesProblem : std::runtime_error {
   IesProblem(std::size_t at, const std::string& what) : std::runtime_error(what), line(at) {}
   std::size_t line;

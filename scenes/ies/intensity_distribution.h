@@ -6,7 +6,7 @@
 //   type B   vertical asin(d_x), about the polar axis X; horizontal atan2(-d_y, -d_z), from 0 where it aims
 //
 // Horizontal angles of type C up to 90 degrees are one quadrant of four alike, up to 180 one of two halves
-// alike, from 90 to 270 likewise, and a single one stands for all. Of type B, horizontal angles from 0 on
+// alike, from 90 to 270 likewise, and a single one stands for all. Horizontal angles of type B from 0 on
 // are one half of two alike. Where nothing was measured it is dark. ANSI/IESNA LM-63-2002, 5.
 #pragma once
 

@@ -1,5 +1,5 @@
-// How a point of a surface scatters light:
-// the bidirectional functions behind the material model (scenes/material.h).
+// Scattering at a point of a surface: the bidirectional functions behind the material model
+// (scenes/material.h).
 //
 // Four lobes, all about the normal +z of a local frame:
 //   diffuse       f = rho_d (1 - e(o)) (1 - e(i)) / (pi (1 - e_avg))
@@ -10,14 +10,14 @@
 // metallic to (1 - metallic) (1 - transmission) to (1 - metallic) transmission.
 // D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter
 // et al. 2007, Heitz 2014); of two widths, by the axis of the local frame, where the material is
-// anisotropic (microfacets.h). What facets of metal send to each other, which single scattering loses,
-// comes out spread (Kulla and Conty 2017): a white metal reflects all light, however rough.
+// anisotropic (microfacets.h). Multiple scattering between facets of metal, which a single-scattering lobe loses,
+// is added as a diffuse lobe (Kulla and Conty 2017): a white metal reflects all light, however rough.
 // At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
 // one direction each, of weight S and T, which only sampling can find.
 //
 // rho_s, the reflectance of metals, is constant (material.h). The Schlick coat
 // F0 + (F90 - F0)(1 - o.h)^5 of dielectrics is there up to `visible_coat_roughness`;
-// rougher ones count as diffuse. What it reflects, e(w) = integral of its lobe, is missing below:
+// rougher ones count as diffuse. The layer below lacks its albedo, e(w) = integral of its lobe:
 // the diffuse lobe is coupled as by Kelemen and Szirmay-Kalos 2001,
 // reciprocal, and for rho_d = 1 reflection and diffuse add up to exactly 1.
 //
@@ -64,7 +64,7 @@ Rgb straight_transmission(const Bsdf& bsdf, double cosine);
 /// The weight of ideal reflection at this cosine; 0 where there is none.
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine);
 
-/// What the coat reflects of light from a direction, e(w) above: the largest channel.
+/// The albedo of the coat for light from a direction, e(w) above: the largest channel.
 double coat_albedo(const Bsdf& bsdf, const Direction& w);
 
 } // namespace meninas

@@ -1,4 +1,4 @@
-// What the bidirectional functions of a point depend on (bsdf.h).
+// The parameters of the bidirectional functions of a point (bsdf.h).
 #pragma once
 
 #include "scenes/material.h"
@@ -51,7 +51,7 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point);
 /// rho_s of a facet that is met at this cosine: rho_s itself where there is no film.
 Rgb metal_reflectance(const Bsdf& bsdf, double cosine);
 
-/// What a film over the coat reflects there, alone.
+/// The reflectance of a film over the coat there, alone.
 Rgb film_over_coat(const Bsdf& bsdf, double cosine);
 
 inline bool has_round_facets(const Bsdf& bsdf) { return bsdf.stretch == 1.0; }

@@ -1,8 +1,8 @@
 // Textures that say the same everywhere are factors.
 //
 // Exporters bake one value into an image: a metallic-roughness texture that is (0, 0, 255) all
-// over is a mirror, an emission that is black is no lamp. What is decided by factors alone
-// (mirrors, lamps, panes, what throws as a mirror) is decided after such textures are gone.
+// over is a mirror, an emission that is black is no lamp. Decisions by factors alone
+// (mirrors, lamps, panes, reflectors that count as mirrors) are made after such textures are gone.
 //
 // Only texels that the triangles of a material show count (texel_ranges.h), and only channels that
 // are read: green and blue of metallic-roughness, whose red often is occlusion; alpha where the

@@ -18,7 +18,7 @@ double coverage(const Material& material, const MaterialPoint& point);
 /// The radiance that a point shows by itself: what it emits, or of an unlit surface its colour.
 Rgb shown_radiance(const Material& material, const MaterialPoint& point);
 
-/// Of the texels that are there at all, at this alpha factor, the share that is open in part.
+/// The share of partly open texels among those that are there at all, at this alpha factor.
 /// It is small where alpha is an outline, as of leaves.
 double partly_covered_share(const TexturePixels& pixels, double alpha);
 

@@ -51,7 +51,7 @@ GlassShares mean_glass_shares(const Glass& glass);
 /// or from inside (ratio = 1 / ior); 1 beyond the angle of total reflection.
 double fresnel(double ratio, double cosine);
 
-/// What is left of light after some metres in a solid:
+/// The transmittance of some metres in a solid:
 /// attenuation_color^(metres / attenuation_distance).
 Rgb attenuation(const Material& material, double metres);
 

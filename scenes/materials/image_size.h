@@ -1,5 +1,5 @@
-// How many pixels an encoded image has, from its header alone:
-// what it will take in memory has to be known before it is decoded.
+// The size of an encoded image in pixels, from its header alone: its memory has to be known before it is
+// decoded.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ Rgb facet_transmittance(const Bsdf& bsdf, double cosine);
 Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in);
 
 /// The parts of f(o, i), ideal lobes left out, in the lobe that has a direction of its own:
-/// of metal and coat, and of glass. What is left is even.
+/// of metal and coat, and of glass. The rest is even.
 struct LobeShares {
   Rgb gloss{0.0}, glass{0.0};
 };
@@ -47,7 +47,7 @@ LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& 
 /// the share that they reflect towards `out` of light that comes evenly from everywhere.
 Rgb even_reflectance(const Bsdf& bsdf, const Direction& out);
 
-/// What a translucent surface shows towards `out` of light that comes evenly to its other side.
+/// The transmittance of a translucent surface towards `out` for light that comes evenly to its other side.
 Rgb even_transmittance(const Bsdf& bsdf, const Direction& out);
 
 /// The rho_s with which the reflection lobe alone reflects, towards `out`,
@@ -72,11 +72,11 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point);
 /// alone, and ideal however rough.
 Bsdf mirror_coat(const Material& material);
 
-/// What is scattered below a coat leaves it by (1 - R(cos)) / (1 - R_mean), 1 in the mean:
-/// together with what the coat reflects, a white surface shows what is around it, from everywhere.
+/// Light scattered below a coat leaves it by (1 - R(cos)) / (1 - R_mean), 1 in the mean:
+/// together with the coat's reflection, a white surface is as bright as its surroundings, from everywhere.
 Rgb coat_transmittance(const Bsdf& coat, double cosine);
 
-/// What clear glass, or a coat, reflects and passes of light from everywhere.
+/// The mean shares of light from everywhere that clear glass, or a coat, reflects and passes.
 GlassShares mean_shares(const Bsdf& clear);
 
 // --- The frame of a surface, +z along its normal

@@ -12,7 +12,7 @@ namespace meninas {
 namespace {
 
 constexpr int sheen_roughness_steps = 16, sheen_cosine_steps = 32; // of the square root of the cosine
-constexpr double least_roughness = 0.1;                ///< smoother fibres are as those
+constexpr double min_roughness = 0.1;                ///< smoother fibres are as those
 
 /// The fit of Conty and Kulla: its parameters between those for a = 0 and a = 1.
 class Shadowing {
@@ -69,7 +69,7 @@ SheenTable make_sheen_table() {
   for (std::size_t r = 0; r <= sheen_roughness_steps; ++r) {
     auto& row = table.at[r];
     const double roughness =
-        std::lerp(least_roughness, 1.0, static_cast<double>(r) / sheen_roughness_steps);
+        std::lerp(min_roughness, 1.0, static_cast<double>(r) / sheen_roughness_steps);
     for (std::size_t c = 0; c <= sheen_cosine_steps; ++c) {
       const double root = std::max(0.03, static_cast<double>(c) / sheen_cosine_steps);
       row[c] = integrated_albedo(roughness, root * root);
@@ -94,7 +94,7 @@ const SheenTable& sheen_table() {
 }
 
 TableCell sheen_roughness_cell(double roughness) {
-  return table_cell((roughness - least_roughness) / (1.0 - least_roughness), sheen_roughness_steps);
+  return table_cell((roughness - min_roughness) / (1.0 - min_roughness), sheen_roughness_steps);
 }
 
 } // namespace

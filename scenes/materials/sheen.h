@@ -6,12 +6,12 @@
 //
 //   f = c D(h) / (4 cos_o cos_i (1 + Lambda(o) + Lambda(i))).
 //
-// Of that lobe, which is nearly as wide as the hemisphere, what counts is how much it reflects:
-// E(o) = integral of f cos_i / c. It is shown with that, and reciprocally:
+// That lobe is nearly as wide as the hemisphere, so only its albedo counts:
+// E(o) = integral of f cos_i / c. A reciprocal lobe with this albedo takes its place:
 //
 //   f = c E(o) E(i) / (pi E_avg),     E_avg = 2 integral of E(w) w dw.
 //
-// What is below has the rest: (1 - m E(o)) (1 - m E(i)) / (1 - m E_avg) of it if it is diffuse, m the
+// The layer below has the rest: (1 - m E(o)) (1 - m E(i)) / (1 - m E_avg) of it if it is diffuse, m the
 // largest channel of c, so that white fibres on white cloth reflect exactly 1; lobes have the smaller
 // of 1 - m E(o) and 1 - m E(i), as glTF says, and ideal mirrors of pass one 1 - m E_avg.
 #pragma once
@@ -36,7 +36,7 @@ double lobe_below_sheen(const Bsdf& bsdf, double cos_out, double cos_in);
 /// The fibres' own f, above.
 Rgb sheen_lobe(const Bsdf& bsdf, double cos_out, double cos_in);
 
-/// Leaves out textures of sheen that have become no factors. What the user is to be told; nothing
+/// Leaves out textures of sheen that have become no factors. Returns the warning for the user; empty
 /// where there are none.
 std::string settle_sheen(Material& material);
 

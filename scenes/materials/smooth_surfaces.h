@@ -1,9 +1,9 @@
-// Flat surfaces that are nearly mirrors: what they throw on other surfaces has a shape.
+// Nearly ideal flat reflectors: the light they cast on other surfaces forms a recognisable patch.
 //
-// Pass one reflects evenly or ideally. Of the two, the ideal mirror comes nearer
-// to a lobe of width alpha = roughness^2 while this is narrow beside what is lit.
-// That is so for flat surfaces, whose mirror worlds are few; what curved ones throw would be
-// found by rays alone, by chance, and stays even. Pass two shows the lobe in any case.
+// Pass one reflects evenly or ideally. The ideal mirror is nearer to a lobe of width alpha = roughness^2
+// while the lobe is narrow beside the lit surface. This holds for flat surfaces, whose mirror worlds are few.
+// Light from curved ones would be found by rays alone, by chance, and is spread evenly. Pass two shows the lobe
+// in any case.
 //
 // Metals are mirrors of one reflectance then. Polished dielectrics (floors, table tops,
 // tiles) are diffuse below a coat that is a mirror by Schlick's R(c), a twentieth of the light

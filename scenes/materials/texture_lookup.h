@@ -39,7 +39,7 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
 Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord);
 
 /// The part of a surface that a point stands for:
-/// a parallelogram about it, by its sides. What they are counted in, the function says.
+/// a parallelogram about it, by its sides. Each function states their unit.
 struct Footprint {
   Vec2 longer{0.0}, shorter{0.0};
 };

@@ -1,7 +1,7 @@
 // Where light that falls on a curved surface is looked for: on the curve (scenes/shading_normal.h),
 // unless something stands between it and the chord, and a hair above.
 //
-// Rays from there leave no plane. Those that go below a hollow surface meet it at once, as the
+// Rays from there leave no plane. Rays that go below a hollow surface meet it at once, because the
 // flat triangle is nearer to the light inside than the curve is.
 #pragma once
 

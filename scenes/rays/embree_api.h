@@ -1,7 +1,8 @@
 // Embree 3 or 4, whichever the build has found, with one set of names: the only place that tells them apart.
 //
-// Packets are of sixteen rays. Where the processor has no instructions for sixteen at once, Embree 4 takes such a packet
-// apart into single rays (3 into packets of eight); two packets of eight are then quicker, and find the same hits.
+// Packets are of sixteen rays. Where the processor has no instructions for sixteen at once, Embree 4 takes such a
+// packet apart into single rays (3 into packets of eight); two packets of eight are then quicker, and find the same
+// hits.
 #pragma once
 
 #include "scenes/rays/rays.h"

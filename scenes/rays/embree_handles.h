@@ -1,4 +1,4 @@
-// What is behind a RayScene: Embree's own handles. Only this folder sees them.
+// Embree's handles behind a RayScene. Only this folder sees them.
 #pragma once
 
 #include "scenes/rays/embree_api.h"

@@ -42,8 +42,8 @@ bool collect_contact(RTCPointQueryFunctionArguments* args) {
 } // namespace
 
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
-                     double least_reach) {
-  ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(contact_reach, least_reach), {}};
+                     double min_reach) {
+  ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(contact_reach, min_reach), {}};
   query.reach *= double{grain_at(rays.geometry(), origin)};
   RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * query.reach)};
   RTCPointQueryContext context;

@@ -9,9 +9,9 @@ namespace meninas {
 LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
 
 /// The triangles within reach of a point that leaves a plane,
-/// or nearer than `least_reach` times its grain if that is further.
+/// or nearer than `min_reach` times its grain if that is further.
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
-                     double least_reach = 0.0);
+                     double min_reach = 0.0);
 
 /// Adds a triangle within reach, once, of a point that leaves a plane.
 void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,

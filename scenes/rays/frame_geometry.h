@@ -46,7 +46,7 @@ struct FrameGeometry {
 FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces,
                                   Holes holes = {});
 
-/// How large the rounding is at a point of the frame, beside that at its bounds.
+/// The rounding at a point of the frame, relative to that at its bounds.
 inline float grain_at(const FrameGeometry& geometry, float x, float y, float z) {
   return std::min(1.0F, std::max({geometry.detail, std::abs(x), std::abs(y), std::abs(z)}));
 }

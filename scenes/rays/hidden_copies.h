@@ -6,9 +6,9 @@
 namespace meninas {
 
 /// By triangle, whether it has exactly the corners of another that hides it from wherever it could
-/// be seen: rays meet that one alone, the same for every ray. An emitter hides what is none,
-/// otherwise the double-sided one, otherwise the first in the file. What is cut out
-/// or transparent hides nothing, and two single-sided faces back to back are a sheet.
+/// be seen: rays meet that one alone, the same for every ray. An emitter hides a face that is none,
+/// otherwise the double-sided one hides, otherwise the first in the file. Cut-out or
+/// transparent faces hide nothing, and two single-sided faces back to back are a sheet.
 std::vector<bool> hidden_copies(const Scene& scene);
 
 } // namespace meninas

@@ -1,4 +1,4 @@
-// Which of the triangles that Embree finds are hits: the rules behind its filters, free of Embree.
+// The rules behind Embree's filters, which decide whether a triangle it finds is a hit. They are free of Embree.
 #pragma once
 
 #include "scenes/rays/ray_contacts.h"
@@ -69,7 +69,7 @@ inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
   if (plane == leaving || plane == arriving || passed)
     return LegHit::own;
 
-  // How far the leg climbs from its start to the hit,
+  // The climb of the leg from its start to the hit,
   // and from there to its end, over the plane of the triangle
   const auto slope = glm::dot(candidate.normal, candidate.direction);
   const auto climb = slope * candidate.distance;

@@ -74,9 +74,9 @@ struct Doubts {
   std::uint32_t through = 0;    ///< lanes that met a transparent back
 };
 
-/// Which lanes a bare query cannot settle: of rays that leave a surface the hits
-/// in the plane they leave and those that touch their origin, and, where the origin
-/// may lie a hair behind another surface, the misses and backs; and backs of sheets.
+/// The lanes that a bare query cannot settle. Rays that leave a surface: hits in the plane they leave, hits
+/// that touch their origin and, where the origin may lie a hair behind another surface, misses and backs.
+/// All rays: backs of sheets.
 Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
                    const LaneFlags& valid, const LaneFlags& touching, Backs backs);
 

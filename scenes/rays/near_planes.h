@@ -1,7 +1,6 @@
-// Which planes come near a surface: a point of it that is off all of them touches nothing else.
+// The planes that come near a surface: a point of it that is off all of them touches nothing else.
 //
-// That settles, for sixteen rays at a time,
-// what otherwise takes a search for contacts per ray (careful_rays.h).
+// This test takes sixteen rays at a time and spares a search for contacts per ray (careful_rays.h).
 #pragma once
 
 #include "scenes/rays/frame_geometry.h"

@@ -1,4 +1,4 @@
-// What a ray does with the triangles that touch its origin.
+// Rules for a ray and the triangles that touch its origin.
 //
 // A point on a surface is only known to the rounding of its coordinates,
 // so near an edge it may lie a hair behind the adjoining wall.

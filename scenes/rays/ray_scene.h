@@ -1,6 +1,6 @@
 // Ray queries over the input geometry: nearest hit and occlusion. (The only user of Embree.)
 //
-// Sides (DESIGN 3): a single-sided surface reflects, emits and mirrors at its front;
+// Sides: a single-sided surface reflects, emits and mirrors at its front;
 // its back is an opaque black absorber. Hits say which side they are on.
 // `Backs::transparent` (camera rays) lets rays pass through such backs.
 // Where two coincident surfaces face opposite ways, the one that faces the ray is hit.

@@ -1,4 +1,4 @@
-// What planes have in common.
+// The point, line or plane that several planes have in common.
 #pragma once
 
 #include "scenes/surfaces/surfaces.h"

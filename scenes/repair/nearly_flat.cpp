@@ -19,7 +19,7 @@ constexpr double unseen_turn = 5e-3;   ///< of a facet, radians
 constexpr double noise_offset = 5e-4;  ///< of the width
 constexpr double max_alike = 0.5;     ///< Moran's I
 /// Of fewer vertices the plane takes so much that what is left always looks like noise.
-constexpr std::size_t few_vertices = 12;
+constexpr std::size_t min_vertices = 12;
 /// A share of the border across which a flat surface may go on smoothly.
 constexpr double max_going_on = 0.25;
 
@@ -226,7 +226,7 @@ private:
     if (fit.offset <= unseen_offset * fit.width && fit.turn <= unseen_turn)
       return true;
     judge_edges(triangles, fit);
-    if (fit.surface.vertices.size() >= few_vertices && fit.alike <= max_alike)
+    if (fit.surface.vertices.size() >= min_vertices && fit.alike <= max_alike)
       return true;
     return is_stated && fit.going_on <= max_going_on;
   }

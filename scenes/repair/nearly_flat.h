@@ -17,9 +17,9 @@
 //           I = (sum over edges h_i h_j / edges) / (sum h_i^2 / vertices) <= 1/2, Moran 1950.
 // A curved mirror fails all three: its sagitta a^2 / 8 R is larger, it goes on beyond the tolerance
 // in the same bend, and I is near 1. Ripples and hammered glass keep their shape for the same
-// reason. What is flat to the tolerance of surfaces (precision.h) is not touched.
+// reason. Surfaces that are flat to their tolerance (precision.h) are not touched.
 //
-// A vertex of several planes moves to what they share, by the least way.
+// A vertex of several planes moves to their common point, line or plane, by the least way.
 #pragma once
 
 #include "scenes/scene.h"

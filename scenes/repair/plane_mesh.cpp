@@ -227,7 +227,7 @@ void make_delaunay(PlaneMesh& mesh) {
   editor.settle_all();
 }
 
-void refine(PlaneMesh& mesh, std::size_t most_points) {
+void refine(PlaneMesh& mesh, std::size_t max_points) {
   struct Bad {
     double excess;
     std::uint32_t triangle;
@@ -247,7 +247,7 @@ void refine(PlaneMesh& mesh, std::size_t most_points) {
   };
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     look_at(t);
-  while (!queue.empty() && mesh.points.size() < most_points) {
+  while (!queue.empty() && mesh.points.size() < max_points) {
     const Bad worst = queue.top();
     queue.pop();
     if (mesh.triangles[worst.triangle].corners != worst.corners)

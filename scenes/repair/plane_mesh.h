@@ -36,7 +36,7 @@ double wanted_area(const PlaneMesh& mesh, const PlaneTriangle& triangle);
 void make_delaunay(PlaneMesh& mesh);
 
 /// Adds points where a triangle takes more than three times its area, as far as that saves elements,
-/// until there are `most_points`. Expects a Delaunay triangulation.
-void refine(PlaneMesh& mesh, std::size_t most_points);
+/// until there are `max_points`. Expects a Delaunay triangulation.
+void refine(PlaneMesh& mesh, std::size_t max_points);
 
 } // namespace meninas

@@ -1,7 +1,7 @@
 // Flat surfaces of slivers, triangulated anew.
 //
-// A disc comes as a fan, a floor with holes as long ears. What light needs is the surface,
-// not its triangles: an element is about as long as wide, so a patch takes
+// A disc comes as a fan, a floor with holes as long ears. Light depends on the surface,
+// not on its triangles: an element is about as long as wide, so a patch takes
 //
 //   W = L^2 / 2 of a triangle with longest edge L,   W = a b of a quad with sides a and b
 //

@@ -6,9 +6,9 @@
 
 namespace meninas {
 
-/// How many sides of faces, drawn a little inwards, first meet a face that their ends lie on either
-/// side of, farther off than rounding and a thousandth of their length explain, and not at its rim:
-/// what merely touches or stands on something is not counted. By nodes, the lower id first.
+/// The number of sides of faces, drawn a little inwards, that first meet a face with their ends on either side of
+/// it, farther off than rounding and a thousandth of their length explain, and not at its rim:
+/// faces that merely touch or stand on others are not counted. By nodes, the lower id first.
 CountByNodes crossings(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays);
 
 } // namespace meninas

@@ -1,5 +1,4 @@
-// What is odd about a scene, node by node with counts,
-// in the words of whoever modelled it and with what to do about it.
+// Oddities of a scene, node by node with counts, in the words of its modeller and with a remedy for each.
 //
 // Nothing of it stops a run: every scene is rendered as it stands.
 // But a mesh turned inside out is black, a face that is there twice is lit as one of the two, and a

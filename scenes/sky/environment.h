@@ -1,4 +1,4 @@
-// What surrounds the scene: the radiance that arrives from where nothing is met.
+// The environment of the scene: the radiance that arrives from where nothing is met.
 //
 //   L(d)   W/m^2/sr, linear Rec.709, d the direction from which it comes, as seen from everywhere
 //

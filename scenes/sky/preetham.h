@@ -22,7 +22,7 @@ SkyColour preetham_zenith(double turbidity, double sun_zenith_angle);
 class PreethamSky {
 public:
   PreethamSky(double turbidity, const Direction& sun);
-  /// Of a direction above the horizon.
+  /// The colour and radiance of a direction above the horizon.
   SkyColour colour(const Direction& d) const;
   Rgb radiance(const Direction& d) const;
 

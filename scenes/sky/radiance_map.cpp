@@ -175,7 +175,7 @@ double mean_beyond(const RadianceMap& map, const Direction& axis) {
 namespace {
 
 constexpr double over_mean = 100.0;
-constexpr std::size_t most_suns = 16;
+constexpr std::size_t max_suns = 16;
 constexpr double widest = 3.0 / 180.0 * std::numbers::pi; ///< from its middle
 
 /// What bilinear interpolation makes of a map's texels: the mean over each is not the texel's own,
@@ -286,7 +286,7 @@ static void find_suns(RadianceMap& map) {
   std::ranges::stable_sort(clusters, std::greater{}, [](const Cluster& cluster) {
     return luminance_of(glm::vec3(cluster.sun.irradiance));
   });
-  clusters.resize(std::min(clusters.size(), most_suns));
+  clusters.resize(std::min(clusters.size(), max_suns));
   if (clusters.empty())
     return;
   map.without_suns = map.texels;
@@ -306,7 +306,7 @@ RadianceMap make_radiance_map(RadianceMap map, const MapPlacement& placement,
   mend(map.texels, faults);
   while (std::int64_t{(map.width + faults.reduced - 1) / faults.reduced} *
              ((map.height + faults.reduced - 1) / faults.reduced) >
-         most_map_texels)
+         max_map_texels)
     ++faults.reduced;
   if (faults.reduced > 1)
     reduce(map, faults.reduced);

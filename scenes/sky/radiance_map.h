@@ -41,7 +41,7 @@ struct RadianceMap {
 };
 
 /// The largest maps: 8 Mi texels are 96 MB, twice that with suns.
-inline constexpr std::int64_t most_map_texels = std::int64_t{1} << 23;
+inline constexpr std::int64_t max_map_texels = std::int64_t{1} << 23;
 
 enum class Suns { shown, left_out };
 
@@ -64,17 +64,17 @@ double texel_solid_angle(const RadianceMap& map, int row);
 Rgb mean_radiance(const RadianceMap& map);
 
 /// Mean of the brightest channel over the half about an axis, weighted by the cosine, without suns;
-/// never 0. Of a few hundred directions: it is for choices and scales.
+/// never 0. A mean of a few hundred directions, for choices and scales.
 double mean_beyond(const RadianceMap& map, const Direction& axis);
 
-/// What a picture's texels were before they became a map's.
+/// The faults of a picture's texels, which a map does not have.
 struct TexelFaults {
   std::int64_t not_numbers = 0, negative = 0, infinite = 0;
   int reduced = 1; ///< so many texels along each axis have become one
 };
 
 /// Texels that are no radiance are replaced (NaN and negative by 0, infinity and what is over
-/// 1e30 by that), texels beyond `most_map_texels` averaged in blocks. Finds the suns and the hash.
+/// 1e30 by that), texels beyond `max_map_texels` averaged in blocks. Finds the suns and the hash.
 /// Rotation in degrees about +Y, counter-clockwise seen from above; strength multiplies.
 struct MapPlacement {
   double rotation = 0.0, strength = 1.0;

@@ -2,7 +2,7 @@
 // sets that grow by union, each told by its smallest member.
 //
 // Paths are halved on the way to the root (Tarjan, van Leeuwen 1984).
-// Which members a set has, and its root, do not depend on the order of unions.
+// The members of a set, and its root, do not depend on the order of unions.
 #pragma once
 
 #include <algorithm>

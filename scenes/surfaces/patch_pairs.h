@@ -1,4 +1,4 @@
-// Which two triangles make one quad. (Used by find_surfaces alone.)
+// Pairs of triangles that make one quad. (Used by find_surfaces alone.)
 #pragma once
 
 #include "scenes/surfaces/regions.h"

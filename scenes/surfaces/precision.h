@@ -1,4 +1,4 @@
-// How well positions are known: alike where the detail of a scene is, less well far beyond.
+// The precision of positions: alike where the detail of a scene is, lower far beyond.
 //
 // Floats round a position by a share of its distance from their origin, and so do the programs
 // that wrote them. In most scenes one bound on that holds for all: the scene's extent is that of
@@ -26,7 +26,7 @@ public:
   explicit Precision(const Scene& scene);
 
   const Detail& detail() const { return detail_; }
-  /// How far a vertex of a wall may be off its plane, in metres.
+  /// The distance by which a vertex of a wall may be off its plane, in metres.
   double in_detail() const { return in_detail_; }
   double at(VertexId vertex) const;
   double of(TriangleId triangle) const;    ///< the least known of its corners

@@ -7,7 +7,7 @@
 
 namespace meninas {
 
-/// What the precision of its corners allows a triangle to say about its plane.
+/// The knowledge of a triangle's plane that the precision of its corners allows.
 struct TriangleShape {
   Direction normal{0.0, 1.0, 0.0};
   double area = 0.0;

@@ -31,8 +31,8 @@ double solid_angle(const std::array<Point3, 3>& triangle, const Point3& x);
 
 std::vector<Shell> find_shells(const Scene& scene, const Topology& topology);
 
-/// How often the shell goes round the point, seen from its fronts: 1 inside a solid,
-/// -1 inside a room, 0 outside: the solid angles of its faces.
+/// The winding number of the shell about the point, seen from its fronts, 1/4pi sum of the solid angles of its
+/// faces: 1 inside a solid, -1 inside a room, 0 outside.
 double winding_number(const Scene& scene, const Shell& shell, const Point3& x);
 
 } // namespace meninas

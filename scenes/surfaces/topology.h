@@ -1,4 +1,4 @@
-// Which triangles touch along which edges, whatever vertices the exporter split. (Used by
+// The edges along which triangles touch, whatever vertices the exporter split. (Used by
 // find_surfaces and report_scene.)
 #pragma once
 
@@ -31,7 +31,7 @@ inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max
 Topology find_topology(const Scene& scene, double weld_distance);
 
 /// The same for copies of one point, which are each off by their position error:
-/// half the tolerance apart at most. Those far beyond the detail are welded among themselves.
+/// half the tolerance apart at most. Vertices far beyond the detail are welded among themselves.
 Topology find_topology(const Scene& scene, const Precision& precision);
 
 inline std::span<const EdgeUse> uses_of(const Topology& topology, std::uint32_t edge) {

@@ -222,14 +222,14 @@ TEST_F(Bake, WithoutDirectLightWhatIsReflectedIsLeft) {
   const GlbContent baked = bake(tiny_room(), {"--direct", "off"});
   const Image indirect = read_image(folder_ / "baked.lightmap.exr").picture;
   ASSERT_EQ(whole.pixels.size(), indirect.pixels.size());
-  float most_whole = 0.0F, most_indirect = 0.0F;
+  float max_whole = 0.0F, max_indirect = 0.0F;
   for (std::size_t k = 0; k < whole.pixels.size(); ++k) {
     EXPECT_LE(indirect.pixels[k].r, 1.0001F * whole.pixels[k].r + 1e-6F);
-    most_whole = std::max(most_whole, whole.pixels[k].r);
-    most_indirect = std::max(most_indirect, indirect.pixels[k].r);
+    max_whole = std::max(max_whole, whole.pixels[k].r);
+    max_indirect = std::max(max_indirect, indirect.pixels[k].r);
   }
-  EXPECT_GT(most_indirect, 0.0F);
-  EXPECT_LT(most_indirect, 0.7F * most_whole);
+  EXPECT_GT(max_indirect, 0.0F);
+  EXPECT_LT(max_indirect, 0.7F * max_whole);
   EXPECT_FALSE(baked.root.contains("extensions")) << "a variant without direct light would be no picture";
 }
 
@@ -256,7 +256,7 @@ TEST_F(Bake, WhatItCannotDoIsOneLine) {
 
 TEST_F(Bake, ASmallMapIsCoarserAndSaysSo) {
   const GlbContent baked = bake(tiny_room(), {"--lightmap-size", "24"});
-  EXPECT_THAT(said_, HasSubstr("--lightmap-size 24: texels are "));
+  EXPECT_THAT(said_, HasSubstr("--lightmap-size 24: the finest texels are "));
   const auto png = read_file(folder_ / "baked.lightmap.png");
   const Bitmap map = decode_image(std::as_bytes(std::span(png)), Encoding::linear, "lightmap");
   EXPECT_LE(map.width, 24);

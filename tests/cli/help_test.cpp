@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -69,7 +70,7 @@ TEST(Help, ShowsWhatMattersFirst) {
 
 const std::vector<std::string> commands{"render", "solve",   "plan",  "compare",    "batch",
                                         "diff",   "regress", "trade", "formfactors", "walk", "bake",
-                                        "merge"};
+                                        "merge",  "view"};
 
 TEST(Help, ShowsTenOptionsAtMost) {
   const TemporaryFolder folder;
@@ -84,6 +85,26 @@ TEST(Help, ShowsTenOptionsAtMost) {
   }
 }
 
+/// A line that goes on begins where the second column does.
+TEST(Help, GivesAnOptionOneLineOf80Columns) {
+  const TemporaryFolder folder;
+  setenv("COLUMNS", "80", 1);
+  std::vector<std::vector<std::string>> pages{{"-h"}};
+  for (const std::string& command : commands)
+    pages.push_back({command, "-h"});
+  for (const std::vector<std::string>& asked : pages) {
+    std::istringstream lines(run_program(folder.path(), asked).out);
+    int entries = 0;
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_FALSE(line.starts_with(std::string(26, ' '))) << asked.front() << ": goes on: " << line;
+      EXPECT_LE(line.size(), 80u) << asked.front() << ": " << line;
+      entries += line.size() > 26 && line[25] == ' ' && line[26] != ' ' ? 1 : 0;
+    }
+    EXPECT_GE(entries, 3) << asked.front() << ": names and texts stand in two columns no more";
+  }
+  unsetenv("COLUMNS");
+}
+
 TEST(Help, FitsTheTerminal) {
   const TemporaryFolder folder;
   for (const std::string width : {"80", "100"}) {
@@ -96,6 +117,36 @@ TEST(Help, FitsTheTerminal) {
     }
   }
   unsetenv("COLUMNS");
+}
+
+/// Entries of each group of --help-all, in the order of the page.
+std::vector<std::pair<std::string, int>> groups_of(const std::string& command) {
+  const TemporaryFolder folder;
+  std::istringstream lines(run_program(folder.path(), {command, "--help-all"}).out);
+  std::vector<std::pair<std::string, int>> groups;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with(':') && !line.starts_with(' ') && line != "Examples:")
+      groups.emplace_back(line, 0);
+    else if (!groups.empty() && line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+      ++groups.back().second;
+  }
+  return groups;
+}
+
+TEST(Help, PutsOptionsOfManyCommandsIntoGroupsOfTheirOwn) {
+  for (const std::string& command : commands) {
+    const auto groups = groups_of(command);
+    ASSERT_FALSE(groups.empty()) << command;
+    EXPECT_EQ(groups.front().first, "Options:") << command;
+    EXPECT_LE(groups.front().second, 13) << command;
+    const auto study = std::ranges::find(groups, "For study:", &std::pair<std::string, int>::first);
+    EXPECT_TRUE(study == groups.end() || study + 1 == groups.end()) << command << ": what study needs comes last";
+  }
+  std::vector<std::string> of_solve;
+  for (const auto& [name, entries] : groups_of("solve"))
+    of_solve.push_back(name);
+  EXPECT_THAT(of_solve, testing::ElementsAre("Options:", "Numbers at points:", "Accuracy of pass one:", "Light:", "Sky:",
+                                             "File:", "Run:", "For study:"));
 }
 
 TEST(Help, BeginsWithExamples) {

@@ -153,10 +153,10 @@ TEST_F(Parts, AreOfWhatIsKnownPixelByPixel) {
            {{"--tile", "3/2"}, "--tile: '3' is not a whole number from 0 to 2"},
            {{"--tile", "1/10"}, "--tile: a picture of 90x70 pixels has no more than 9 parts"},
            {{"--tile", "1/2", "-o", "b.exr"}, "--tile: needs one output, an EXR: `meninas merge` makes the others"},
-           {{"--tile", "1/2", "--error-map"}, "--error-map: is of whole pictures: it does not go with --tile"},
-           {{"--tile", "1/2", "--float"}, "--float: is for `meninas merge`: a part is what it is"},
+           {{"--tile", "1/2", "--error-map"}, "--error-map: needs the whole picture: it does not go with --tile"},
+           {{"--tile", "1/2", "--float"}, "--float: does not go with --tile: give it to `meninas merge`"},
            {{"--tile", "1/2", "--mode", "reference"},
-            "--tile: is of the two passes: --mode reference samples all of a picture until its mean is known"}}) {
+            "--tile: does not go with --mode reference, which samples the whole picture until its mean is known"}}) {
     const Outcome outcome = run(render("a.exr", options));
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(without_progress(outcome.err), "meninas: " + line + "\n");

@@ -41,7 +41,7 @@ protected:
 struct LampCase {
   const char* name;
   PageCase page; ///< of the gallery
-  double most_flip = 0.02;
+  double max_flip = 0.02;
 };
 
 class WalkDimmersTruth : public WalkDimmers, public testing::WithParamInterface<LampCase> {};
@@ -55,7 +55,7 @@ TEST_P(WalkDimmersTruth, ThePageShowsWhatTheProgramRenders) {
   const json said = page_beside_picture(page);
   if (said.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
-  EXPECT_LE(said.at("flip").get<double>(), GetParam().most_flip);
+  EXPECT_LE(said.at("flip").get<double>(), GetParam().max_flip);
 }
 
 INSTANTIATE_TEST_SUITE_P(

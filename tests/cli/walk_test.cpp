@@ -37,8 +37,8 @@ struct TruthCase {
   const char* scene;
   const char* camera;
   const char* exposure; ///< about that of its PNG, stops
-  std::size_t least_worlds; ///< the room and its images
-  double most_flip = 0.02;
+  std::size_t min_worlds; ///< the room and its images
+  double max_flip = 0.02;
   std::size_t draws_beside = 0; ///< beside one to a world: what panes and rough mirrors ask for
 };
 
@@ -49,13 +49,13 @@ class WalkTruth : public Walk, public testing::WithParamInterface<TruthCase> {};
 TEST_P(WalkTruth, ThePageShowsWhatTheProgramRenders) {
   if (!has_browser())
     GTEST_SKIP() << "no Chromium here: pages are not drawn";
-  const auto& [scene, camera, exposure, least_worlds, most_flip, draws_beside] = GetParam();
+  const auto& [scene, camera, exposure, min_worlds, max_flip, draws_beside] = GetParam();
   const json said = page_beside_picture({gallery(scene), camera, exposure});
   if (said.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
-  EXPECT_LE(said.at("flip").get<double>(), most_flip);
+  EXPECT_LE(said.at("flip").get<double>(), max_flip);
   const std::size_t worlds = said.at("figures").at("worlds");
-  EXPECT_GE(worlds, least_worlds);
+  EXPECT_GE(worlds, min_worlds);
   EXPECT_LE(said.at("figures").at("draws").get<std::size_t>(), worlds + draws_beside);
   EXPECT_EQ(said.at("figures").at("cut"), 0);
 }
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, WalkTruth,
 struct MirrorWalls {
   const char* name;
   std::vector<std::size_t> walls; ///< of the tiny room, which stand for mirrors
-  std::size_t least_worlds;
+  std::size_t min_worlds;
 };
 
 class WalkBetweenMirrors : public Walk, public testing::WithParamInterface<MirrorWalls> {};
@@ -106,7 +106,7 @@ TEST_P(WalkBetweenMirrors, AWorldIsOneDraw) {
   if (said.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
   const json& figures = said.at("figures");
-  EXPECT_GE(figures.at("worlds").get<std::size_t>(), GetParam().least_worlds);
+  EXPECT_GE(figures.at("worlds").get<std::size_t>(), GetParam().min_worlds);
   EXPECT_EQ(figures.at("draws"), figures.at("worlds"));
   EXPECT_EQ(figures.at("cut"), 0);
   EXPECT_LE(said.at("flip").get<double>(), 0.02);

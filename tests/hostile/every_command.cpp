@@ -184,9 +184,9 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
 
   // Of large scenes what a view does not show is less exact; here of small ones too.
   const RadiositySolution solution =
-      happens(random, 0.3) ? solve_for_view(prepared->light, chosen.pass_one,
-                                            seen_elements(*prepared->light, camera, chosen.render))
-                           : solve_pass_one(prepared->light, chosen.pass_one);
+      happens(random, 0.3) ? solve_for_view(prepared->light(), chosen.pass_one,
+                                            seen_elements(*prepared->light(), camera, chosen.render))
+                           : solve_pass_one(prepared->light(), chosen.pass_one);
   check(solution);
   const Rendering rendering = render(solution.field, camera, chosen.render);
   check(rendering, brightest(there));
@@ -202,7 +202,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
                         error.mesh, error.form_factors, error.mirror_tail, error.pixels,
                         error.solver, error.mean_radiance));
   }
-  if (there.triangles.size() > effort.few_triangles)
+  if (there.triangles.size() > effort.max_drawn_triangles)
     return;
   if (happens(random, 0.3))
     draw_reference(there, camera);
@@ -221,7 +221,7 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   RunSettings settings = drawn_settings(random);
   // Exact form factors by way of many mirrors take minutes, by design.
   const bool exact = happens(random, 0.1) && std::ranges::none_of(scene.materials, is_mirror);
-  if (exact && scene.triangles.size() <= effort.few_triangles / 4 &&
+  if (exact && scene.triangles.size() <= effort.max_drawn_triangles / 4 &&
       settings.mesh == MeshCut::uniform)
     settings.form_factors = FormFactorMethod::analytic;
   scene.background = happens(random, 0.2)

@@ -16,7 +16,7 @@ namespace meninas::test {
 /// So many triangles or fewer are also asked for form factors, and drawn by the reference.
 struct Effort {
   std::size_t max_triangles = 20'000; ///< more are planned and no more
-  std::size_t few_triangles = 150;
+  std::size_t max_drawn_triangles = 150;
 };
 
 /// Throws a Finding (findings.h), which names the settings. A UserError is the program's right and is passed on.

@@ -114,13 +114,13 @@ void keep_and_read(const PreparedScene& prepared, const RadiositySolution& solut
   write_solution(file.path, content_hash(prepared.scene), prepared.mesh, solution, mesh);
   StoredSolution stored = read_solution(file.path, prepared.scene);
   require(stored.field.irradiance == solution.field.irradiance, "a solution is read in another way than written");
-  const IrradianceField read = field_of(file.path, std::move(stored), prepared.light);
+  const IrradianceField read = field_of(file.path, std::move(stored), prepared.light());
   require(read.irradiance == solution.field.irradiance, "the field is read in another way than written");
   for (int k = 0; k < 3; ++k) {
     const PassingFile spoiled{.path = file.path.string() + ".spoiled.glb"};
     spoil(file.path, random, spoiled);
     try {
-      field_of(spoiled.path, read_solution(spoiled.path, prepared.scene), prepared.light);
+      field_of(spoiled.path, read_solution(spoiled.path, prepared.scene), prepared.light());
     } catch (const UserError&) {
       // It is damaged, and says so.
     }
@@ -197,7 +197,7 @@ void walk(const IrradianceField& field, Random& random) {
   std::vector<WalkLamp> lamps;
   for (std::size_t l = 0; l < field.by_lamp.size(); ++l)
     lamps.push_back({field.scene->lamp_groups->names[l], Rgb(hostile_factor(random))});
-  if (lamps.size() > most_walk_lamps)
+  if (lamps.size() > max_walk_lamps)
     return;
   std::vector<std::string> warnings;
   const std::string html = walk_page_html({.field = field,

@@ -187,12 +187,13 @@ private:
       } else if (code_[k] == '{') {
         const std::size_t open = parameters_of(head);
         const bool is_namespace = begins_with_word(head, "namespace") || head.empty();
-        const bool type = begins_with_word(head, "struct") || begins_with_word(head, "class");
+        const bool type = (begins_with_word(head, "struct") || begins_with_word(head, "class")) &&
+                          (open == std::string_view::npos || head.find("alignas(") != std::string_view::npos);
         const std::string_view after =
             open == std::string_view::npos ? head : head.substr(past_match(head, open));
         const bool initializes =
             trimmed(after).starts_with(":") && !after.empty() && is_word(trimmed(after).back());
-        if (is_namespace || (type && open == std::string_view::npos)) {
+        if (is_namespace || type) {
           k = read_scope(k + 1, type) - 1;
           begin = is_namespace ? k + 1 : begin;
           if (type) // to its semicolon

@@ -68,9 +68,12 @@ TEST(Functions, AreToldFromWhatLooksLikeThem) {
                   "  bool operator==(const S&) const = default;",
                   "  int a_ = 0, b_ = g(1);",
                   "};",
+                  "struct alignas(64) A {",
+                  "  void of_member(int a) { f(a); }",
+                  "};",
                   "template <typename T> T twice(const T& t) { return 2 * t; }",
               })),
-              ElementsAre("S", "", "", "twice"));
+              ElementsAre("S", "", "", "of_member", "twice"));
 }
 
 TEST(Functions, ThatAreLongOrTakeManyArgumentsAreCaught) {

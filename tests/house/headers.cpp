@@ -44,13 +44,17 @@ std::ptrdiff_t words_in(const std::string& text) {
                        std::sregex_iterator());
 }
 
-/// An equation, a year, or a unit.
-bool states_something(const std::string& comments) {
-  static const std::regex equation(R"(\S\s*(=|~|<=|->|\|\|)\s*\S)"),
-      year(R"(\b(17|18|19|20)\d\d\b)"),
-      unit(R"(W/m|m\^2|metre|radian|steradian|dimensionless| relative|pixels|seconds|bytes)");
-  return std::regex_search(comments, equation) || std::regex_search(comments, year) ||
-         std::regex_search(comments, unit);
+/// By an equation, or the year of a source.
+bool states_how(const std::string& comments) {
+  static const std::regex equation(R"([\w)|]\s+(=|~|<=|>=|<|>)\s+[-\w(|])"),
+      year(R"(\b(1[789]\d\d|20[0-2]\d)\b)");
+  return std::regex_search(comments, equation) || std::regex_search(comments, year);
+}
+
+bool states_unit(const std::string& comments) {
+  static const std::regex unit(
+      R"(W/m|\bW\b|m\^2|metre|radian|steradian|dimensionless|unit length|[Rr]elative|share|factor|fraction|0 to 1|\[0, 1|pixels|seconds|bytes|degrees|frame)");
+  return std::regex_search(comments, unit);
 }
 
 bool returns_quantity(const Function& function) {
@@ -69,14 +73,13 @@ std::vector<std::string> header_breaches(const std::vector<SourceFile>& tree) {
     if (const auto words = words_in(opening_of(file)); words < min_words)
       breaches.push_back(
           fmt::format("{}:1: {} words do not say what it computes", file.path, words));
-    if (states_something(comments_of(file)))
-      continue;
+    const std::string comments = comments_of(file);
+    const bool how = states_how(comments), unit = states_unit(comments);
     for (const Function& function : functions_of(file))
-      if (returns_quantity(function))
-        breaches.push_back(
-            fmt::format("{}:{}: {} returns a quantity, and no comment has an equation, a source or "
-                        "a unit",
-                        file.path, function.line, function.name));
+      if (returns_quantity(function) && !(how && unit))
+        breaches.push_back(fmt::format("{}:{}: {} returns a quantity, and no comment has {}", file.path,
+                                       function.line, function.name,
+                                       how ? "a unit" : "an equation or a source"));
   }
   return breaches;
 }

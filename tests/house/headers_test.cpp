@@ -28,13 +28,20 @@ TEST(Headers, WithFewWordsAreCaught) {
   EXPECT_THAT(breaches_of("runs/a.h", {"// Light at a point."}), IsEmpty());
 }
 
-TEST(Headers, OfQuantitiesHaveAnEquationASourceOrAUnit) {
+TEST(Headers, OfQuantitiesHaveAnEquationOrASourceAndAUnit) {
   const std::string quantity = "std::vector<Rgb> light_at(int x);";
   EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, quantity}),
               ElementsAre(HasSubstr("radiosity/a.h:2: light_at returns a quantity")));
-  for (const char* statement : {"//   H = sum_j F_j B_j", "// Lambert 1760", "/// W/m^2"})
-    EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, statement, quantity}), IsEmpty())
+  for (const char* statement : {"//   H = sum_j F_j B_j", "// Lambert 1760"}) {
+    EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, statement, "/// W/m^2", quantity}), IsEmpty())
         << statement;
+    EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, statement, quantity}),
+                ElementsAre(HasSubstr("no comment has a unit")));
+  }
+  for (const char* none : {"/// W/m^2", "/// W/m^2, of 2048", "/// W/m^2 -> W"})
+    EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, none, quantity}),
+                ElementsAre(HasSubstr("no comment has an equation or a source")))
+        << none;
   EXPECT_THAT(breaches_of("radiosity/a.h", {long_enough, "bool is_lit(double x);"}), IsEmpty());
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string_view>
 
@@ -70,7 +71,19 @@ constexpr std::array retired = {
     "NodeCross",        "DiffuseField",  "RefinedScene",      "field_scene",
     "ClusterStandIn",   "SourceSeen",    "divide_bent",       "divide_at_shadows",
     "follow_penumbrae", "chosen_lights", "shared_irradiance", "throws_as_mirror",
-    "let_out_by_coat",  "sure_paths",    "shadow_lines.h",    "standing_walls"};
+    "let_out_by_coat",  "sure_paths",    "shadow_lines.h",    "standing_walls",
+    "from_source",      "Cover::",       "VertexState::lit",  "Visibility::alike",
+    "light_fresh",      "left_on_leg",   "meet_blocker",      "has_learned",
+    "cut_at_shadows",   "shadow_lines",  "world_tail",        "LandingTable",
+    "cells_at_foot",    "Knob",          "knob",              "facets_with_edges",
+    "reflected_light.h", "lobe_grid",    "shadow_paths.h",    "element_hierarchy.h"};
+
+/// Limits are max_x and min_x: what begins with one of these, in C++ or in JavaScript, is named otherwise.
+/// Of Python's own names one is among them.
+bool has_other_limit_name(const std::string& line) {
+  static const std::regex limit(R"(\b(most|least|few|fewest)(_(?!common\()[a-z]|[A-Z][a-z]))");
+  return std::regex_search(line, limit);
+}
 
 std::string folder_of(std::string_view path) {
   return std::string(path.substr(0, std::min(path.find('/'), path.size())));
@@ -102,13 +115,13 @@ std::vector<std::string> read_lines(const std::filesystem::path& file) {
 
 bool is_source(const std::filesystem::path& file) {
   static const std::set<std::string> extensions = {".h",     ".hpp", ".cpp", ".cc",
-                                                   ".cmake", ".sh",  ".py"};
+                                                   ".cmake", ".sh",  ".py", ".js"};
   return extensions.contains(file.extension().string());
 }
 
 bool is_code(const SourceFile& file) {
   const std::string extension = std::filesystem::path(file.path).extension().string();
-  return extension != ".cmake" && extension != ".sh" && extension != ".py";
+  return extension != ".cmake" && extension != ".sh" && extension != ".py" && extension != ".js";
 }
 
 /// Calls visit(file, line number, included path, in quotes) for every include of the tree.
@@ -123,7 +136,40 @@ void for_each_include(const std::vector<SourceFile>& tree, Visit visit) {
   }
 }
 
+/// The file named first after "Start with": beside the page, or written from a folder around it.
+bool has_entry(const std::filesystem::path& root, std::filesystem::path folder, const std::string& page) {
+  static const std::regex start("Start with [^`.]*`([^`]+)`");
+  std::smatch entry;
+  if (!std::regex_search(page, entry, start))
+    return false;
+  const std::string name = entry[1].str();
+  for (; !folder.empty(); folder = folder.parent_path())
+    if (std::filesystem::exists(root / folder / name))
+      return true;
+  return std::filesystem::exists(root / name);
+}
+
 } // namespace
+
+std::vector<std::string> folder_page_breaches(const std::filesystem::path& root, const std::vector<SourceFile>& tree) {
+  std::set<std::string> folders;
+  for (const SourceFile& file : tree)
+    if (folder_of(file.path) != "cmake")
+      folders.insert(file.path.starts_with("tests/") ? "tests" : std::filesystem::path(file.path).parent_path().generic_string());
+  std::vector<std::string> breaches;
+  for (const std::string& folder : folders) {
+    std::string page;
+    for (const std::string& line : read_lines(root / folder / "README.md"))
+      page += line + '\n';
+    if (!page.starts_with("# "))
+      breaches.push_back(fmt::format("{}/README.md is missing, or has no title", folder));
+    if (!has_entry(root, folder, page))
+      breaches.push_back(fmt::format("{}/README.md: 'Start with' names no file that is there", folder));
+    if (page.find("May include: ") == std::string::npos)
+      breaches.push_back(fmt::format("{}/README.md: no 'May include: '", folder));
+  }
+  return breaches;
+}
 
 std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
   std::vector<SourceFile> tree;
@@ -197,6 +243,9 @@ std::vector<std::string> retired_words(const std::vector<SourceFile>& tree) {
           breaches.push_back(fmt::format("{}:{}: {} has another name in docs/glossary.md",
                                          file.path, i + 1, word));
         }
+      }
+      if (has_other_limit_name(file.lines[i])) {
+        breaches.push_back(fmt::format("{}:{}: a limit is max_ or min_", file.path, i + 1));
       }
     }
   }

@@ -24,6 +24,10 @@ std::vector<std::string> include_direction_breaches(const std::vector<SourceFile
 std::vector<std::string> wrapped_library_breaches(const std::vector<SourceFile>& tree);
 std::vector<std::string> file_shape_breaches(const std::vector<SourceFile>& tree);
 
+/// Folders whose README.md is not there, has no title, or does not say where to start, with a file that is there, and what the
+/// sources may include. Of tests/ that is one page; cmake/ has none.
+std::vector<std::string> folder_page_breaches(const std::filesystem::path& root, const std::vector<SourceFile>& tree);
+
 /// Names that the published ones of docs/glossary.md have replaced.
 std::vector<std::string> retired_words(const std::vector<SourceFile>& tree);
 

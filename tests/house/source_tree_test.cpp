@@ -37,10 +37,35 @@ TEST(SourceTree, FilesAreShortAndHeadersSayWhatTheyAre) {
   EXPECT_THAT(file_shape_breaches(read_source_tree(test::source_dir())), IsEmpty());
 }
 
+TEST(SourceTree, FoldersHaveAPageThatSaysWhereToStart) {
+  EXPECT_THAT(folder_page_breaches(test::source_dir(), read_source_tree(test::source_dir())), IsEmpty());
+}
+
+TEST(SourceTree, FoldersWithoutAPageAreCaught) {
+  const std::filesystem::path root =
+      std::filesystem::temp_directory_path() / ("meninas-pages-" + std::to_string(getpid()));
+  const auto breaches_with = [&](const std::string& page) {
+    std::filesystem::create_directories(root / "mirror/tree");
+    std::ofstream(root / "mirror/a.h") << "// Mirrors.\n";
+    std::ofstream(root / "mirror/tree/README.md") << page;
+    return folder_page_breaches(root, {file("mirror/tree/b.h", {}), file("cmake/c.cmake", {})});
+  };
+  EXPECT_THAT(breaches_with("# Trees\n\nStart with `mirror/a.h`. May include: `mirror/`.\n"), IsEmpty());
+  EXPECT_THAT(breaches_with("Start with the header `a.h`. May include: `mirror/`.\n"), ElementsAre(HasSubstr("no title")));
+  EXPECT_THAT(breaches_with("# Trees\n\nStart with `old.h`. May include: `mirror/`.\n"),
+              ElementsAre(HasSubstr("mirror/tree/README.md: 'Start with'")));
+  EXPECT_THAT(breaches_with("# Trees\n\nStart with `a.h`.\n"), ElementsAre(HasSubstr("no 'May include: '")));
+  EXPECT_THAT(folder_page_breaches(root, {file("mirror/b.h", {})}), testing::SizeIs(3)) << "which has no page";
+  std::filesystem::remove_all(root);
+}
+
 TEST(SourceTree, NamesAreThoseOfTheGlossary) {
   EXPECT_THAT(retired_words(read_source_tree(test::source_dir())), IsEmpty());
   EXPECT_THAT(retired_words({file("mirror/a.h", {"// one", "struct KeptRays;"})}),
               ElementsAre(HasSubstr("mirror/a.h:2: KeptRays")));
+  EXPECT_THAT(retired_words({file("mirror/a.h", {"// one", "int most_points = 4, at_most = 1;"}),
+                             file("runs/a.js", {"const fewRays = 2;", "words.most_common()"})}),
+              ElementsAre(HasSubstr("mirror/a.h:2: a limit"), HasSubstr("runs/a.js:1: a limit")));
 }
 
 TEST(SourceTree, TheArchitectureHasTwoPassesAndTheNotesTheRest) {

@@ -176,7 +176,7 @@ TEST(Library, ErrorsAreOneLineAndSayWhoIsToBlame) {
       {error_of([&] { room.form_factors({{"samples", "4"}}); }), Error::Kind::usage, "samples: has no effect on form factors"},
       {error_of([&] { room.solve().render({{"rays", "64"}}); }), Error::Kind::usage, "rays: has no effect"},
       {error_of([&] { room.render({{"by-lamp", ""}}); }), Error::Kind::usage, "by-lamp: has no effect"},
-      {error_of([&] { room.render({{"mode", "reference"}, {"error", "0.1"}}); }), Error::Kind::usage, "error: is of the two passes"},
+      {error_of([&] { room.render({{"mode", "reference"}, {"error", "0.1"}}); }), Error::Kind::usage, "error: has no effect with mode reference"},
       {error_of([&] { picture.write("room.png", {{"camera", "main"}}); }), Error::Kind::usage, "camera: has no effect"},
       {error_of([&] { room.solve({{"by-lamp", ""}}).relit({{"all", {2, 2, 2}}}).relit({{"all", {2, 2, 2}}}); }), Error::Kind::usage, "relight the one"},
       {error_of([&] { room.solve({{"by-lamp", ""}}).relit({{"all", {1e38, 0, 0}}}); }), Error::Kind::usage, "from 0 to 1e+06"},

@@ -81,7 +81,7 @@ protected:
 TEST_P(ImageMethod, EveryElementReceivesTheSame) {
   EnergyBalance energy;
   PassOneSettings settings = settings_of(512, 0.125);
-  settings.direct.points = settings.direct.most_points = 32;
+  settings.direct.points = settings.direct.max_points = 32;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
       64;
   const Field with_mirror = irradiance_field(half(), settings, energy);
@@ -110,7 +110,7 @@ TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
   for (const int rays : {64, 512, 8192}) {
     EnergyBalance energy;
     PassOneSettings settings = settings_of(rays, 0.25);
-    settings.direct.points = settings.direct.most_points = rays / 16;
+    settings.direct.points = settings.direct.max_points = rays / 16;
     settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
         64;
     const Difference d = difference(irradiance_field(half(), settings, energy),
@@ -134,7 +134,7 @@ TEST_P(ImageMethod, ByHemicubes) {
   PassOneSettings settings = settings_of(1, 0.25);
   settings.form_factors.method = FormFactorMethod::hemicube;
   settings.form_factors.hemicube_resolution = 70;
-  settings.direct.points = settings.direct.most_points = 32;
+  settings.direct.points = settings.direct.max_points = 32;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
       64;
   const Difference d = difference(irradiance_field(half(), settings, energy),

@@ -14,7 +14,7 @@ PassOneSettings one_patch_settings() {
   settings.mesh.element_size = 1e6;
   settings.form_factors.rays = 1 << 16;
   settings.direct.points = 1024;
-  settings.direct.most_points = 1024;
+  settings.direct.max_points = 1024;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element = 1;
   settings.solver.tolerance = 1e-9;
   settings.interpolation.method = Interpolation::average;

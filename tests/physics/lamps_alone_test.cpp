@@ -113,7 +113,7 @@ TEST_P(LampsAlone, AreTheSceneWithoutTheOthers) {
   const auto& [name, scene, names, grouping] = GetParam();
   const PassOneSettings settings = settings_of(grouping);
   const auto apart = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(apart->light, settings);
+  const RadiositySolution solution = solve_pass_one(apart->light(), settings);
   const LampGroups lamps = find_lamps(scene, grouping);
   ASSERT_EQ(lamps.names, names);
   for (std::size_t l = 0; l < lamps.size(); ++l) {
@@ -121,7 +121,7 @@ TEST_P(LampsAlone, AreTheSceneWithoutTheOthers) {
     std::vector<Rgb> factors(lamps.size(), Rgb(0.0));
     factors[l] = Rgb(1.0, 0.5, 2.0);
     const auto alone = prepare_scene(relit(scene, lamps, factors), settings);
-    const RadiositySolution truth = solve_pass_one(alone->light, settings);
+    const RadiositySolution truth = solve_pass_one(alone->light(), settings);
     const std::vector<glm::vec3> found = relit(solution.field, factors).irradiance;
     ASSERT_EQ(found.size(), truth.field.irradiance.size());
     const double expected = sum_of(truth.field.irradiance);

@@ -44,7 +44,7 @@ Scene room_of_three_lamps() {
 }
 
 RadiositySolution solved(const PreparedScene& prepared, const PassOneSettings& settings) {
-  return solve_pass_one(prepared.light, settings);
+  return solve_pass_one(prepared.light(), settings);
 }
 
 double mean_of(const std::vector<glm::vec3>& values) {
@@ -138,7 +138,7 @@ protected:
   }
 
   PassOneSettings settings_;
-  std::unique_ptr<PreparedScene> prepared_;
+  std::shared_ptr<const PreparedScene> prepared_;
   RadiositySolution solution_;
 };
 

@@ -22,7 +22,7 @@ LightScene by_rays_alone(const LightScene& light) {
   LightScene rays = light;
   rays.emitters.clear();
   rays.emitter_tree = {};
-  std::fill(rays.from_source.begin(), rays.from_source.end(), std::uint8_t{0});
+  std::fill(rays.direct_sides.begin(), rays.direct_sides.end(), std::uint8_t{0});
   return rays;
 }
 

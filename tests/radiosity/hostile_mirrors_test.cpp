@@ -51,7 +51,7 @@ void expect_source_and_rays_agree(const Scene& scene, double element_size = 0.25
   LightScene rays = *l->light;
   rays.emitters.clear();
   rays.emitter_tree = {};
-  std::fill(rays.from_source.begin(), rays.from_source.end(), std::uint8_t{0});
+  std::fill(rays.direct_sides.begin(), rays.direct_sides.end(), std::uint8_t{0});
   const std::vector<Rgb> by_rays = gathered_emission(rays, assemble_transport(rays, settings));
   const FormFactors factors = assemble_transport(*l->light, settings);
   const std::vector<Rgb> gathered = gathered_emission(*l->light, factors);
@@ -105,7 +105,7 @@ TEST(HostileMirrors, AnEmitterThatTouchesItsMirror) {
               glow);
   // The wall opposite has the same elements in either room, with other points in them;
   // nothing stands in the way.
-  const DirectSettings fine{.points = 512, .most_points = 512};
+  const DirectSettings fine{.points = 512, .max_points = 512};
   const auto mirrored = direct_on(half, "x1", fine), real = direct_on(whole, "x1", fine);
   ASSERT_EQ(mirrored.size(), real.size());
   for (std::size_t e = 0; e < real.size(); ++e)

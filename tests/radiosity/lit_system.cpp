@@ -8,12 +8,12 @@ namespace meninas::test {
 System system_of(const LitScene& lit, const FormFactorSettings& form_factors,
                  const DirectSettings& direct) {
   const FormFactors factors = assemble_transport(*lit.light, form_factors);
-  const DirectIrradiance from_source = direct_irradiance(*lit.light, factors.covered, direct);
+  const DirectIrradiance found = direct_irradiance(*lit.light, factors.covered, direct);
   const std::vector<Rgb> gathered = gathered_emission(*lit.light, factors);
   System system{factors.transport, {}, {}};
   for (std::size_t i = 0; i < element_count(lit.mesh); ++i) {
     system.reflectance.push_back(lit.mesh.sides[index(lit.mesh.side_of_element[i])].reflectance);
-    system.source.push_back(system.reflectance[i] * (from_source.irradiance[i] + gathered[i]));
+    system.source.push_back(system.reflectance[i] * (found.irradiance[i] + gathered[i]));
   }
   return system;
 }

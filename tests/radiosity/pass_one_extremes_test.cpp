@@ -19,7 +19,7 @@ PassOneSettings pass_one_of(SolverMethod method, double element_size) {
   settings.mesh.element_size = element_size;
   settings.form_factors.rays = settings.interpolation.rays = 64;
   settings.interpolation.method = Interpolation::average;
-  settings.direct = {.points = 4, .most_points = 4};
+  settings.direct = {.points = 4, .max_points = 4};
   settings.solver = {method, tolerance};
   return settings;
 }

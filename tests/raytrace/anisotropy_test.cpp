@@ -1,5 +1,5 @@
 // Brushed metal in pass two: its lobe's grid, its highlights, and how they lie on the surface.
-#include "raytrace/lobe_grid.h"
+#include "raytrace/glossy_frustum.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/metals.h"
 #include "tests/support/rooms.h"
@@ -38,7 +38,7 @@ TEST(AnisotropicLobes, WhiteReflectsAllOfEvenLightWhateverTheGrid) {
         for (const int n : {1, 3, 8}) {
           const Bsdf bsdf = bsdf_of(brushed(roughness, strength));
           const Direction out = at(cosine, azimuth);
-          lobe_grid(bsdf, out, n, {0.3, 0.9}, rays);
+          glossy_frustum(bsdf, out, n, {0.3, 0.9}, rays);
           Rgb all = even_reflectance(bsdf, out);
           for (const LobeRay& ray : rays)
             all += ray.weight;
@@ -63,7 +63,7 @@ TEST(AnisotropicLobes, TheirGridConvergesToTheConvolution) {
     // Midpoints err by about 1 / n^2; the norm comes from a table good to 3e-3.
     for (const int n : {4, 16, 64}) {
       std::vector<LobeRay> rays;
-      lobe_grid(bsdf, out, n, {0.5, 0.5}, rays);
+      glossy_frustum(bsdf, out, n, {0.5, 0.5}, rays);
       double sum = 0.0;
       for (const LobeRay& ray : rays)
         sum += ray.weight.g * light(ray.in);
@@ -80,7 +80,7 @@ TEST(AnisotropicLobes, TheDensityIsThatOfTheGridsDirections) {
   std::vector<LobeRay> rays;
   double mean = 0.0;
   constexpr int n = 512;
-  lobe_grid(bsdf, out, n, {0.5, 0.5}, rays);
+  glossy_frustum(bsdf, out, n, {0.5, 0.5}, rays);
   for (const LobeRay& ray : rays)
     mean += 1.0 / lobe_density(bsdf, out, ray.in) / (n * n);
   EXPECT_NEAR(mean, 2.0 * pi, 0.02 * 2.0 * pi); // facets near the horizon fall between the cells

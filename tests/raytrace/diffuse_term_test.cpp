@@ -198,7 +198,7 @@ TEST(DiffuseTerm, DirectPenumbraeAreRightInTheMean) {
   settings.render.diffuse.direct.shadow_rays = 8;
   settings.render.diffuse.direct.penumbra_rays = 16;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
 
   constexpr int draws = 64, width = 32, rows = 4;
   std::array<double, width> mean{};

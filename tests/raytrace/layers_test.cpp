@@ -31,7 +31,7 @@ struct Layered {
 
 Layered layers_of(const Scene& scene, const TwoPassSettings& settings) {
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const auto solution = solve_pass_one(prepared->light, settings.pass_one);
+  const auto solution = solve_pass_one(prepared->light(), settings.pass_one);
   Layered result{
       render(solution.field, scene.cameras.at(0), settings.render),
       render_layers(solution.field, scene.cameras.at(0), settings.render),

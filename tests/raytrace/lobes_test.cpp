@@ -1,5 +1,5 @@
 // Glossy metals and coats: lobes' grids against integrals, what they leave of even light, pictures.
-#include "raytrace/lobe_grid.h"
+#include "raytrace/glossy_frustum.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/metals.h"
 #include "tests/support/scene_builder.h"
@@ -41,7 +41,7 @@ TEST(LobeGrid, WhiteReflectsAllOfEvenLightWhateverTheGrid) {
     for (const double cosine : {1.0, 0.5, 0.02})
       for (const int n : {1, 2, 7}) {
         const Bsdf bsdf = bsdf_of(material);
-        lobe_grid(bsdf, at_angle(cosine), n, {0.3, 0.9}, rays);
+        glossy_frustum(bsdf, at_angle(cosine), n, {0.3, 0.9}, rays);
         const Rgb all = sum_of(rays) + even_reflectance(bsdf, at_angle(cosine));
         EXPECT_NEAR(all.g, 1.0, 1e-12) << material.roughness << ' ' << cosine << ' ' << n;
       }
@@ -59,7 +59,7 @@ TEST(LobeGrid, ItsSamplesHaveTheMeanOfAFineGrid) {
       return light;
     };
     const int n = 64;
-    lobe_grid(bsdf, out, n, {0.5, 0.5}, rays);
+    glossy_frustum(bsdf, out, n, {0.5, 0.5}, rays);
     const double whole = sum();
     double mean = 0.0;
     for (int i = 0; i < n; ++i)
@@ -75,7 +75,7 @@ TEST(LobeGrid, ItsSamplesHaveTheMeanOfAFineGrid) {
 TEST(LobeGrid, ColourLosesAndNeverGains) {
   std::vector<LobeRay> rays;
   const Bsdf bsdf = bsdf_of(metal({0.9, 0.5, 0.1}, 0.6));
-  lobe_grid(bsdf, at_angle(0.4), 5, {0.5, 0.5}, rays);
+  glossy_frustum(bsdf, at_angle(0.4), 5, {0.5, 0.5}, rays);
   const Rgb all = sum_of(rays) + even_reflectance(bsdf, at_angle(0.4));
   EXPECT_THAT(all.r, testing::AllOf(testing::Gt(0.8), testing::Lt(0.9)));
   EXPECT_THAT(all.b, testing::AllOf(testing::Gt(0.05), testing::Lt(0.1)));
@@ -85,7 +85,7 @@ TEST(LobeGrid, WithoutWidthIsTheMirrorDirection) {
   std::vector<LobeRay> rays;
   const Bsdf bsdf = bsdf_of(metal({0.9, 0.5, 0.1}, 0.01));
   EXPECT_EQ(lobe_divisions(bsdf, at_angle(0.6), 1e6), 1);
-  lobe_grid(bsdf, at_angle(0.6), 1, {0.2, 0.4}, rays);
+  glossy_frustum(bsdf, at_angle(0.6), 1, {0.2, 0.4}, rays);
   ASSERT_EQ(rays.size(), 1U);
   EXPECT_EQ(rays[0].in, Direction(-0.8, 0.0, 0.6));
   EXPECT_EQ(rays[0].weight, Rgb(0.9, 0.5, 0.1));
@@ -124,7 +124,7 @@ double convolution(const Bsdf& bsdf, const Direction& out,
 double by_grid(const Bsdf& bsdf, const Direction& out, int n,
                const std::function<double(const Direction&)>& light) {
   std::vector<LobeRay> rays;
-  lobe_grid(bsdf, out, n, {0.5, 0.5}, rays);
+  glossy_frustum(bsdf, out, n, {0.5, 0.5}, rays);
   double sum = 0.0;
   for (const LobeRay& ray : rays)
     sum += ray.weight.g * light(ray.in);
@@ -152,7 +152,7 @@ TEST(LobeGrid, ConvergesToTheConvolution) {
     EXPECT_NEAR(even,
                 sum_of([&] {
                   std::vector<LobeRay> rays;
-                  lobe_grid(bsdf, out, 8, {0.5, 0.5}, rays);
+                  glossy_frustum(bsdf, out, 8, {0.5, 0.5}, rays);
                   return rays;
                 }())
                     .g,

@@ -188,7 +188,7 @@ TEST(Panorama, TexturesAreAveragedOverPixels) {
     const int rows = projection == Projection::equirectangular ? image.height - 1 : image.height;
     for (int y = 0; y < rows; ++y)
       for (int x = 0; x < image.width; ++x) {
-        const Sight at = look(*lit.prepared->light, camera, 2.0,
+        const Sight at = look(*lit.prepared->light(), camera, 2.0,
                               {(x + 0.5) / image.width, (y + 0.5) / image.height}, 0);
         const bool whole = at.triangle != none<TriangleId> && std::abs(at.position.x) < 5.0 &&
                            std::abs(at.position.z) < 5.0;

@@ -27,7 +27,7 @@ void expect_each_pixel_once(int width, int height, int count) {
 }
 
 TEST(PictureWindow, PartsCoverEachPixelOnce) {
-  for (int count = 1; count <= most_parts(200, 150); ++count)
+  for (int count = 1; count <= max_parts(200, 150); ++count)
     expect_each_pixel_once(200, 150, count);
   for (const int count : {1, 2, 3, 7})
     expect_each_pixel_once(7 * tile_size, 1, count);

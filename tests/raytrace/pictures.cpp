@@ -9,7 +9,7 @@ namespace meninas::test {
 
 Taken lit_up(const Scene& scene, const PassOneSettings& settings) {
   Taken taken{prepare_scene(scene, settings), {}};
-  taken.solution = solve_pass_one(taken.prepared->light, settings);
+  taken.solution = solve_pass_one(taken.prepared->light(), settings);
   return taken;
 }
 

@@ -6,7 +6,7 @@
 namespace meninas::test {
 
 struct Taken {
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   RadiositySolution solution;
 };
 

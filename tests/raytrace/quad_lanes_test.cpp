@@ -52,7 +52,7 @@ TEST(QuadLanes, SliversAreSeenBeforeNothing) {
     PassOneSettings settings;
     settings.mesh.target_elements = 200;
     const Taken taken = lit_up(scene, settings);
-    ASSERT_GT(general_faces(*taken.prepared->light), 0U);
+    ASSERT_GT(general_faces(*taken.prepared->light()), 0U);
     RenderSettings render;
     render.width = render.height = 48;
     render.samples = 4;
@@ -73,7 +73,7 @@ TEST(QuadLanes, SliversAreSeenBeforeNothing) {
 
 TEST(QuadLanes, LanesThatHitNothingAreLeftAlone) {
   const Taken taken = lit_up(sliver_quad(), {});
-  const LightScene& light = *taken.prepared->light;
+  const LightScene& light = *taken.prepared->light();
   ASSERT_GT(general_faces(light), 0U);
   const FaceRecord& face = light.landing.faces[0];
   HitPacket hits;

@@ -105,7 +105,7 @@ TEST(SectionPlane, MirrorsShowWhatIsCutAway) {
   const Image image = picture(lit, camera, square_picture());
   // L = rho E / pi of the front, from the inside; floats.
   EXPECT_NEAR(image.at(24, 24).g, 0.5 * 6.0 / 3.14159265358979, 1e-5);
-  const Sight sight = look(*lit.prepared->light, camera, 1.0, {0.5, 0.5}, 0);
+  const Sight sight = look(*lit.prepared->light(), camera, 1.0, {0.5, 0.5}, 0);
   EXPECT_NEAR(sight.position.z, 0.1, 1e-6);
 }
 

@@ -139,7 +139,7 @@ TEST(Textures, VertexColoursAreLinearInThePictureAndMeansInPassOne) {
   const auto settings = quick(0.5);
   const auto prepared = prepare_scene(scene, settings.pass_one);
   EXPECT_EQ(prepared->plan.bands, 3);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
   for (std::size_t e = 0; e < element_count(prepared->mesh); ++e) {
     double middle = 0.0;
     for (const ElementVertexId corner : prepared->mesh.corners[e])
@@ -170,7 +170,7 @@ TEST(Textures, AreAsSharpInAMirror) {
   // A camera behind the mirror looks past its back,
   // and sees what the mirror shows, left and right exchanged.
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const auto solution = solve_pass_one(prepared->light, settings.pass_one);
+  const auto solution = solve_pass_one(prepared->light(), settings.pass_one);
   const auto seen = [&](const Point3& from, const Point3& at) {
     return render(solution.field, look_at(from, at, 0.1), settings.render).image;
   };
@@ -239,10 +239,10 @@ TEST(Textures, WhatGlowsInPatternsLightsInPatterns) {
                   lamp);
     }
     const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-    EXPECT_EQ(prepared->light->emitters.size(), pattern ? 12U : 1U)
+    EXPECT_EQ(prepared->light()->emitters.size(), pattern ? 12U : 1U)
         << "two columns, and the one that the border reaches";
     DirectWorkspace work;
-    return direct_irradiance(*prepared->light, {{at, 0, 0.1}, {0, 1, 0}, PlaneId{0}, {}}, {}, 0,
+    return direct_irradiance(*prepared->light(), {{at, 0, 0.1}, {0, 1, 0}, PlaneId{0}, {}}, {}, 0,
                              work)
         .total.g;
   };
@@ -268,7 +268,7 @@ TEST(Textures, EnergyIsThatOfTheImages) {
   add_square(scene, "floor", 0.0, true, painted(0.8));
   scene.background = Rgb(1.0);
   const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, quick(0.25).pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), quick(0.25).pass_one);
   EXPECT_NEAR(solution.energy.absorbed.g, 0.6 * std::numbers::pi, 0.02);
   EXPECT_NEAR(solution.energy.imbalance, 0.0, 1e-6);
 }
@@ -340,7 +340,7 @@ TEST(CutOuts, WhatIsCutOutNeitherEmitsNorReflects) {
       material.double_sided = false;
     }
   const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, quick(0.25).pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), quick(0.25).pass_one);
   EXPECT_NEAR(solution.energy.emitted.g, 0.5 * std::numbers::pi, 0.02);
 }
 
@@ -355,7 +355,7 @@ TEST(Textures, OfMirrorsColourWhatIsSeenInThem) {
   add_square(scene, "mirror", 0.0, true, silver);
   const TwoPassSettings settings = quick(1.0);
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
   const auto seen_at = [&](double x) {
     const Camera camera = look_at({x, 1.0, 0.3}, {x, 0.0, -0.25}, 1e-3);
     return render(solution.field, camera, settings.render).image.pixels[0].g;

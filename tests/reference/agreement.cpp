@@ -23,7 +23,7 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights, c
   settings.mesh.element_size = 0.1;
   settings.form_factors.rays = settings.interpolation.rays = 256;
   const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
   for (const Sight& sight : sights) {
     SCOPED_TRACE(sight.what);
     constexpr double field_error = 0.01;

@@ -37,11 +37,11 @@ TEST(Globillum, PointsOfTheMirrorRoomsAreThoseOfPaths) {
     settings.mesh.element_size = 0.25;
     settings.form_factors.rays = settings.interpolation.rays = 128;
     const auto prepared = prepare_scene(load_gltf(gallery / (std::string(name) + ".gltf")), settings);
-    const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+    const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
     std::vector<QueryPoint> points;
     for (const Place& place : places)
       points.push_back(place.point);
-    const auto light = irradiance_at_points(*prepared->light, reflected_by_elements(solution.field),
+    const auto light = irradiance_at_points(*prepared->light(), reflected_by_elements(solution.field),
                                             points, {.rays = 2048});
     for (std::size_t k = 0; k < places.size(); ++k) {
       SCOPED_TRACE(places[k].what);

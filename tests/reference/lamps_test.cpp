@@ -22,7 +22,7 @@ TEST(RelitTwoPasses, AgreeWithPathsUnderTheSameLamps) {
   settings.form_factors.rays = settings.interpolation.rays = 256;
   settings.lamps = LampGrouping::node;
   const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
   const LampGroups lamps = find_lamps(scene, LampGrouping::node);
   ASSERT_EQ(lamps.size(), 2U);
   struct Sight {

@@ -50,7 +50,7 @@ std::map<std::string, double> hybrid_layers(const Scene& scene, const Camera& ca
   settings.render.glossy_samples = 64;
   settings.render.diffuse.term = DiffuseTerm::direct;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const auto solution = solve_pass_one(prepared->light, settings.pass_one);
+  const auto solution = solve_pass_one(prepared->light(), settings.pass_one);
   std::map<std::string, double> means;
   for (const Layer& layer : render_layers(solution.field,
                                           camera, settings.render)

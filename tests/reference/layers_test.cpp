@@ -173,7 +173,7 @@ TEST(ReferenceLayers, TheTwoPassesFindTheSameShares) {
   settings.render.width = 32;
   settings.render.height = 24;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const auto solution = solve_pass_one(prepared->light, settings.pass_one);
+  const auto solution = solve_pass_one(prepared->light(), settings.pass_one);
   const auto rendering = render_layers(solution.field, camera, settings.render);
   ASSERT_EQ(rendering.layers.size(), picture.layers.size());
   LayerLuminances hybrid{};

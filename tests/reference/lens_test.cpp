@@ -103,7 +103,7 @@ TEST(Sheen, OfPathsIsThatOfTheTwoPasses) {
   settings.render.width = settings.render.height = 1;
   settings.render.samples = 64;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings.pass_one);
   for (const Point3 eye : {Point3(0.0, 1.5, 0.0), Point3(0.9, 0.15, 0.0)}) {
     const Rgb seen = render(solution.field, look_at(eye, {0, 0, 0.01}, 1e-4), settings.render).image.pixels[0];
     const MeanRadiance truth = radiance_seen(scene, eye, {0, 0, 0.01}, 8192);

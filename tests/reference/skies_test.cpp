@@ -83,8 +83,8 @@ TEST(ReferenceSkies, TheTwoPassesAgreeInARoomWithAWindow) {
   settings.mesh.element_size = 0.2;
   settings.form_factors.rays = settings.interpolation.rays = 512;
   const auto prepared = prepare_scene(scene, settings);
-  ASSERT_EQ(prepared->light->portals.size(), 1U);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+  ASSERT_EQ(prepared->light()->portals.size(), 1U);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
   struct Sight {
     const char* what;
     Point3 eye, target;

@@ -38,9 +38,9 @@ MeanRadiance radiance_seen(const Scene& scene, Point3 eye, Point3 target, int sa
   return mean_radiance(traced_picture(scene, look_at(eye, target, 1e-4), tracing(8, 8, samples)));
 }
 
-void expect_radiance(const MeanRadiance& measured, const Rgb& exact, double most_error) {
+void expect_radiance(const MeanRadiance& measured, const Rgb& exact, double max_error) {
   for (int band = 0; band < 3; ++band) {
-    EXPECT_LE(measured.error[band], most_error * exact[band]) << band;
+    EXPECT_LE(measured.error[band], max_error * exact[band]) << band;
     // What is known without noise is known to the rounding of floats in rays and pixels.
     const double allowed = 4.0 * measured.error[band] + 1e-5 * exact[band];
     EXPECT_NEAR(measured.mean[band], exact[band], allowed) << band;

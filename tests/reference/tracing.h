@@ -24,6 +24,6 @@ MeanRadiance radiance_seen(const Scene& scene, Point3 eye, Point3 target, int sa
 
 /// Within four standard errors, and these at most a hundredth of it:
 /// a test that is too noisy to say anything fails.
-void expect_radiance(const MeanRadiance& measured, const Rgb& exact, double most_error = 0.01);
+void expect_radiance(const MeanRadiance& measured, const Rgb& exact, double max_error = 0.01);
 
 } // namespace meninas::test

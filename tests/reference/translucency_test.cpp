@@ -78,7 +78,7 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights,
   settings.mesh.element_size = 0.1;
   settings.form_factors.rays = settings.interpolation.rays = 256;
   const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
+  const RadiositySolution solution = solve_pass_one(prepared->light(), settings);
   for (const Sight& sight : sights) {
     const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 1024);
     for (const DiffuseTerm term :

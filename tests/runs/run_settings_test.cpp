@@ -54,7 +54,7 @@ TEST(DiffuseTerm, IsDirectWhereTheMeshIsFinerThanPicturesNeed) {
   const Material wall = diffuse(0.5);
   add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
   const auto prepared = prepare_scene(std::move(scene), {});
-  LightScene coarse = *prepared->light, fine = *prepared->light;
+  LightScene coarse = *prepared->light(), fine = *prepared->light();
   coarse.finely_tessellated = false;
   fine.finely_tessellated = true;
   const auto term = [](const RunSettings& settings) { return diffuse_term(settings); };

@@ -13,6 +13,15 @@ from . import exr, passes, program, room, settings
 EXPORT_SHARE = 0.1  # of the progress that Blender shows
 
 
+def percent_off(error):
+    """As the program says it (runs/report/percent.h): "about 1.3 %"; "about" a number alone."""
+    if error > 1.0:
+        return "over 100 %"
+    if 0.0 < error < 1e-4:
+        return "under 0.01 %"
+    return f"about {100.0 * error:.2g} %" if error < 0.0995 else f"about {100.0 * error:.0f} %"
+
+
 class MeninasRenderEngine(bpy.types.RenderEngine):
     bl_idname = "MENINAS"
     bl_label = "Meninas"
@@ -96,7 +105,7 @@ class MeninasRenderEngine(bpy.types.RenderEngine):
         seconds = figures["seconds"]["total"]
         line = f"Meninas: {seconds:.1f} s"
         if estimate.get("total") is not None:
-            line += f", about {100.0 * estimate['total']:.2g} % off"
+            line += f", {percent_off(estimate['total'])} off"
         self.update_stats("", line)
         self.report({"INFO"}, line)
 

@@ -32,7 +32,7 @@ Vec2 barycentric_of(const std::array<Point3, 3>& p, const Point3& x) {
          squared;
 }
 
-/// Of the triangles of a patch the one that holds the point, or comes nearest to that.
+/// The point on the triangle of a patch that holds it, or comes nearest to that.
 TrianglePoint point_of_patch(const LightScene& light, PatchId patch, const Point3& x) {
   TrianglePoint best{light.surfaces.patches[index(patch)].triangles[0], Vec2(0.0)};
   double most = -std::numeric_limits<double>::infinity();
@@ -76,7 +76,7 @@ Places places_on_curves(const LightScene& light, const VertexSamples& found,
   Places places;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     // Where a wall stands on the curve its two sides are apart.
-    if (valid[v] == 0 || found.states[v] == VertexState::averaged || is_at_contact(mesh, v) ||
+    if (valid[v] == 0 || found.states[v] == VertexState::smoothed || is_at_contact(mesh, v) ||
         !is_curved(light, side_of_vertex(mesh, v)))
       continue;
     const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], known));

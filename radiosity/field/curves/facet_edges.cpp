@@ -18,7 +18,7 @@ double sum_of_bands(const Rgb& light) { return light.r + light.g + light.b; }
 std::optional<double> visible_part(const VertexSource& source, const Receiver& receiver,
                                    std::uint32_t seed) {
   PointWorkspace& work = source.workspaces.local();
-  const ArrivingLight light = light_from_source(source.gathering, receiver, seed, work);
+  const ArrivingLight light = direct_light_at(source.gathering, receiver, seed, work);
   const double unblocked = sum_of_bands(unblocked_irradiance(source.gathering.light, work.direct));
   if (!(unblocked > 0.0))
     return std::nullopt;
@@ -45,15 +45,15 @@ double unevenly_seen(const VertexSource& source, std::uint32_t level, const Vert
 std::vector<ElementId> faces_with_shadow_edges(const LightScene& light, const VertexSource& source,
                                          std::uint32_t level, const VertexSamples& found,
                                          std::span<const ElementId> facets) {
-  constexpr double most_even = 0.1;
+  constexpr double max_unevenness = 0.1;
   if (facets.empty())
     return {};
   const std::vector<std::uint8_t> turn =
-      sides_above_crease_angle(light.mesh, facets_around(light), most_smooth_turn);
+      sides_above_crease_angle(light.mesh, facets_around(light), max_smooth_turn);
   std::vector<std::uint8_t> has_edge(facets.size(), 0);
   tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t k) {
     has_edge[k] = turn[index(found.mesh.side_of_element[index(facets[k])])] != 0 ||
-                          unevenly_seen(source, level, found, facets[k]) > most_even
+                          unevenly_seen(source, level, found, facets[k]) > max_unevenness
                       ? 1
                       : 0;
   });

@@ -10,7 +10,7 @@
 
 namespace meninas {
 
-/// Spreads the rest of light from cluster to cluster.
+/// Spreads indirect light from cluster to cluster.
 static void smooth_over_clusters(const ElementMesh& mesh, const VertexElements& facets,
                                  const ElementLight& elements, std::span<const std::uint8_t> clustered,
                                  std::vector<Rgb>& rest) {
@@ -37,7 +37,7 @@ static void smooth_over_clusters(const ElementMesh& mesh, const VertexElements& 
   }
 }
 
-/// Of each facet's direct light, and of the rest, what comes by way of mirrors:
+/// The part of each facet's direct and indirect light that comes by way of mirrors:
 /// in the share that a few rays find at its middle.
 static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
                                                       const std::vector<std::uint8_t>& averaged,
@@ -60,7 +60,7 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
                           side.tangent, side.coat};
     const PointLight found = light_at(
         gathering, middle, hash(static_cast<std::uint32_t>(e), 0xface7), workspaces.local());
-    mirrored[0][e] = share(found.from_source) * parts[0][e];
+    mirrored[0][e] = share(found.direct) * parts[0][e];
     mirrored[1][e] = share(found.indirect()) * parts[1][e];
   });
   return mirrored;
@@ -70,7 +70,7 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
 static void average_lamp(const ElementMesh& mesh, const ElementLight& elements,
                          const VertexElements& facets, std::span<const std::uint8_t> clustered,
                          std::size_t lamp, VertexLightOfLamp& light) {
-  const std::vector<Rgb> direct = light_of_lamp(elements.from_source_by_lamp, lamp);
+  const std::vector<Rgb> direct = light_of_lamp(elements.direct_by_lamp, lamp);
   std::vector<Rgb> rest = light_of_lamp(elements.irradiance_by_lamp, lamp);
   for (std::size_t e = 0; e < rest.size(); ++e)
     rest[e] -= direct[e];
@@ -85,16 +85,16 @@ static void average_lamp(const ElementMesh& mesh, const ElementLight& elements,
 void average_facets(const LightScene& light, const ElementLight& elements,
                     const VertexElements& facets, const FacetAverages& how,
                     PointWorkspaces& workspaces, VertexIrradiance& field) {
-  constexpr int few_rays = 16;
+  constexpr int ray_count = 16;
   const ElementMesh& mesh = light.mesh;
-  std::array<std::vector<Rgb>, 2> parts{elements.from_source, elements.irradiance}, mirrored;
+  std::array<std::vector<Rgb>, 2> parts{elements.direct, elements.irradiance}, mirrored;
   for (std::size_t e = 0; e < element_count(mesh); ++e)
     parts[1][e] -= parts[0][e];
   smooth_over_clusters(mesh, facets, elements, how.clustered, parts[1]);
   if (how.mirrored && (!light.mirrors.mirrors.empty() || light.mirrors.facets > 0)) {
     const PointGathering gathering(light, elements.reflected, how.form_factors,
                                    {.shadow_rays = 4, .penumbra_rays = 4},
-                                   {.rays = few_rays, .cluster_shadow_rays = 1});
+                                   {.rays = ray_count, .cluster_shadow_rays = 1});
     mirrored = mirrored_parts(light, averaged_facets(mesh, facets), parts, gathering, workspaces);
   }
   for (std::size_t l = 0; l < field.by_lamp.size(); ++l)

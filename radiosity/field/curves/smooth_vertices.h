@@ -4,18 +4,18 @@
 //
 // Direct and indirect light are averaged apart. Their parts that come by way of mirrors are the
 // shares that a few rays find at the middle of each facet.
-// Facets that received the rest as a cluster (transport/face_clusters.h) all have its mean. From cluster to cluster it is
-// to change as smoothly as the curve does: such facets take the mean of their vertices and these of their
-// facets, ring after ring, so far as a cluster reaches.
+// Facets that received indirect light as a cluster (transport/face_clusters.h) all have its mean, which should change
+// as smoothly as the curve does: such facets take the mean of their vertices, and these that of their facets, ring
+// after ring, as far as a cluster extends.
 #pragma once
 
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 
 namespace meninas {
 
 struct FacetAverages {
   const FormFactorSettings& form_factors;
-  std::span<const std::uint8_t> clustered; ///< by ElementId, 1: the rest is that of a cluster; empty: of none
+  std::span<const std::uint8_t> clustered; ///< by ElementId, 1: its indirect light is that of a cluster; empty: of none
   bool mirrored = true; ///< InterpolationSettings::mirrored; else those parts stay 0
 };
 

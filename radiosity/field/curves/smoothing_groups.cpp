@@ -58,7 +58,7 @@ FacetPlaces facet_places(const ElementMesh& mesh, double grain) {
   return sorted;
 }
 
-/// What tells at a corner of a facet whether another one continues it.
+/// The data at a corner of a facet that say whether another facet continues it.
 struct CornerNormal {
   Direction normal{0.0};
   bool given = false; ///< by the file; else it is that of the facet
@@ -78,7 +78,7 @@ bool is_smooth_between(const CornerNormal& a, const CornerNormal& b) {
   return glm::dot(a.normal, b.normal) >= (a.given && b.given ? same_cosine : facet_cosine);
 }
 
-/// What the facets around each vertex are found by.
+/// The search for the facets around each vertex.
 class FacetSearch {
 public:
   explicit FacetSearch(const LightScene& light)
@@ -104,7 +104,7 @@ public:
     tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
       const auto elements = around(own_, v);
       if (result.begin[v + 1] != 0 || !std::ranges::all_of(elements, [&](ElementId element) {
-            return needs_few_samples(light_, element);
+            return has_reduced_samples(light_, element);
           }))
         return;
       alone[v] = 1;

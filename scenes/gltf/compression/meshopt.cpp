@@ -33,8 +33,8 @@ public:
     if (is_of_next_codec(source))
       fail("the data is of version 1 of the codec, only 0 is read");
     // The shortest codes: two bits for 16 equal bytes of vertices, one byte for three indices.
-    constexpr std::uint64_t most_per_byte = 64;
-    Bytes decoded(count_ * stride_ / most_per_byte <= source.size() ? count_ * stride_ : 0);
+    constexpr std::uint64_t max_per_byte = 64;
+    Bytes decoded(count_ * stride_ / max_per_byte <= source.size() ? count_ * stride_ : 0);
     if (decoded.empty() && count_ == 0)
       return decoded;
     if (decoded.empty() || decode_into(decoded, source) != 0)

@@ -6,7 +6,7 @@
 
 namespace meninas::gltf {
 
-/// How often a node shows its mesh: 1 without the extension.
+/// The number of instances of a node's mesh: 1 without the extension.
 std::uint64_t instance_count(const Document& document, std::size_t node);
 
 /// World matrices of the copies; the node's own without the extension.

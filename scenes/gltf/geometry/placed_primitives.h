@@ -1,5 +1,5 @@
-// Where the triangles of a file's primitives are in the world, by node and copy: for those who write the
-// file back. What of them is in a Scene has been repaired (scenes/repair/), and is in another order.
+// The world positions of the triangles of a file's primitives, by node and copy, for writing the
+// file back. Triangles in a Scene have been repaired (scenes/repair/), and are in another order.
 #pragma once
 
 #include "scenes/gltf/geometry/file_triangles.h"

@@ -8,7 +8,7 @@ namespace meninas::gltf {
 
 enum class Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, strip, fan };
 
-/// What the primitives of one node's mesh have in common.
+/// The common data of the primitives of one node's mesh.
 struct MeshPlace {
   const Document& document;
   std::size_t mesh = 0;
@@ -54,12 +54,12 @@ std::optional<TextureUse> tangent_map_of(const PrimitivePlace& at);
 
 std::size_t triangles_in(Mode mode, std::uint64_t corners);
 
-/// What the geometry of the scene takes.
+/// The size of the geometry of the scene.
 struct GeometrySize {
   double bytes = 0.0, vertices = 0.0;
 };
 
-/// Of vertices and triangles before any is made; a vertex whose corners have several tangents makes
+/// The size of vertices and triangles before any is made; a vertex whose corners have several tangents makes
 /// more (part.h). Throws OutputError when there are more primitives than any scene has, or as
 /// below: instances multiply, so a small file can ask for any amount of either.
 GeometrySize geometry_size(const Document& document, std::span<const PlacedNode> nodes);
@@ -67,7 +67,7 @@ GeometrySize geometry_size(const Document& document, std::span<const PlacedNode>
 /// Throws OutputError when that is more than the limit of memory.
 void check_size(const Document& document, const GeometrySize& size);
 
-/// Of vertices that a part has in so many copies.
+/// The size of the vertices of a part in so many copies.
 GeometrySize size_of_vertices(double copies, double vertices);
 
 } // namespace meninas::gltf

@@ -22,7 +22,7 @@ namespace meninas::gltf {
 
 enum class KeyInterpolation { step, linear, cubic_spline };
 
-/// How many elements of values a key has: of a spline a, v and b, in this order.
+/// The number of elements of values per key: a spline has a, v and b, in this order.
 std::size_t elements_per_key(KeyInterpolation interpolation);
 
 struct KeyFrames {

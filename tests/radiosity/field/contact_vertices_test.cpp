@@ -12,17 +12,17 @@
 namespace meninas::test {
 namespace {
 
-/// `direct` from the source and 1 indirectly, by way of mirrors.
+/// `direct` of direct light, and 1 of indirect light, by way of mirrors.
 ContactLight light_of(double place, double direct) {
   return {place,
           {.irradiance = {Rgb(direct + 1.0), Rgb(1.0)},
            .indirect = {Rgb(1.0), Rgb(1.0)},
-           .cover = Cover::open}};
+           .clearance = Clearance::open}};
 }
 
 TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
   VertexIrradiance field;
-  field.irradiance.assign(6, glm::vec3(3.0F)); // 1 from the source, 2 by way of mirrors
+  field.irradiance.assign(6, glm::vec3(3.0F)); // 1 direct, 2 by way of mirrors
   field.indirect = field.mirrored = field.indirect_mirrored = {6, glm::vec3(2.0F)};
   std::vector<std::uint8_t> valid(6, 0);
   valid[0] = 1;

@@ -1,6 +1,6 @@
 // Emission that rays find by chance is spread over neighbours: no light is lost, and no dot is left.
 #include "radiosity/field/emission_kernels.h"
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"

@@ -171,7 +171,7 @@ TEST(LowSpaces, NodesDoNotLightTheFootOfABoxByTheirNoise) {
                      {.element_size = 0.0857});
   PassOneSettings exact = settings_by(By::rows);
   exact.form_factors.rays = 1024;
-  exact.direct.points = exact.direct.most_points = 64;
+  exact.direct.points = exact.direct.max_points = 64;
   const RadiositySolution rows = solve_pass_one(l->light, exact),
                           nodes = solve_by(By::nodes, l->light);
   for (const std::size_t e : elements_of(*l, "floor")) {

@@ -1,5 +1,5 @@
 // Vertices at the edges of penumbrae: no specks where few samples have missed what is hidden.
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 #include "form_factors/point_form_factor.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
@@ -63,7 +63,7 @@ TEST(PenumbraVertices, NoneOverlooksWhatThoseBesideItSee) {
     const double here = found.field.irradiance[v].g;
     EXPECT_FALSE(here > (1.0 - 1e-6) * whole && truth < (1.0 - 1.0 / 32.0) * whole) << v;
     EXPECT_FALSE(here == 0.0 && truth > whole / 32.0) << v;
-    in_part += found.seen[v] == Visibility::in_part ? 1 : 0;
+    in_part += found.seen[v] == Visibility::partial ? 1 : 0;
     followed += found.seen[v] == Visibility::confirmed ? 1 : 0;
   }
   // A ring of vertices lies around the penumbra, which is a few elements wide.

@@ -127,7 +127,7 @@ TEST(ShadowEdges, AreNearerToWhatTheyAre) {
   EXPECT_LT(error_of(finer, places, expected), error_of(even, places, expected) / 3.0);
 }
 
-// Nothing is gathered for them: what is not from the source is the same everywhere.
+// Nothing is gathered for them: indirect light is the same everywhere.
 TEST(ShadowEdges, LeaveTheRestAsItWas) {
   const auto l = lit(room_with_plate(), {.element_size = 1.0 / 16.0});
   const RadiositySolution even = solve_pass_one(l->light, by_nodes(1.0 / 16.0, 0.0)),

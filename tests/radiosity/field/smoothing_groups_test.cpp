@@ -156,7 +156,7 @@ TEST(Facets, OfClustersShareTheirLightOut) {
   const auto l = lit(std::move(scene), {.element_size = 0.5});
   const std::size_t size = element_count(l->mesh);
   const auto light_at = [](const Point3& x) { return 1.0 + 4.0 * (x.y - 1.1); };
-  const FaceClusters clusters = face_clusters(l->mesh, l->surfaces);
+  const FaceClusters clusters = face_clusters(*l->light);
   ASSERT_GT(clusters.size(), 100U);
   ElementLight elements{std::vector<Rgb>(size, Rgb(0.0)), std::vector<Rgb>(size, Rgb(1.0)),
                         std::vector<Rgb>(size, Rgb(0.0))};

@@ -34,7 +34,7 @@ PassOneSettings by_rows(PassOneSettings settings, int rays) {
 
 /// Direct light as exact as it gets, so that receivers are what differs.
 PassOneSettings with_fine_direct_light(PassOneSettings settings) {
-  settings.direct.points = settings.direct.most_points = 32;
+  settings.direct.points = settings.direct.max_points = 32;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
       64;
   return settings;
@@ -185,7 +185,7 @@ TEST(Hierarchical, FinerElementsNeedNoMoreRays) {
   for (const double size : {1.0 / 16.0, 1.0 / 32.0}) {
     const auto l = lit(plain_room(), {.element_size = size});
     PassOneSettings settings = hierarchical(size, 0.05, 256);
-    settings.direct.points = settings.direct.most_points = settings.direct.shadow_rays =
+    settings.direct.points = settings.direct.max_points = settings.direct.shadow_rays =
         settings.direct.penumbra_rays = 1;
     rays.push_back(solve_pass_one(l->light, settings).form_factor_rays);
     elements.push_back(element_count(l->mesh));
@@ -199,7 +199,7 @@ TEST(Hierarchical, FinerElementsNeedNoMoreRays) {
 TEST(Hierarchical, TreesAndCutsAreWhole) {
   for (const Scene& scene : {half_room(), gallery("meninas")}) {
     const auto l = lit(scene, {.element_size = 0.3});
-    const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+    const NodeTree tree = make_node_tree(*l->light);
     for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
       const TreeNode& node = tree.nodes[n];
       double below = 0.0;

@@ -67,7 +67,7 @@ std::vector<glm::vec3> parabolas(const ElementMesh& mesh) {
 // take the bend of the edge opposite. On the line between their ends they are 0.01 to 0.1 off.
 TEST(NodeEdges, FollowParabolas) {
   const auto l = lit_floor(0.14);
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   const std::vector<glm::vec3> light = parabolas(l->mesh);
   for (const bool uneven : {false, true}) {
     const std::vector<TreeNodeId> nodes = cut_below(tree, 2, uneven);
@@ -98,7 +98,7 @@ TEST(NodeEdges, FollowParabolas) {
 // its edges stay straight; others do not change.
 TEST(NodeEdges, StayStraightWhereLightIsNotKnown) {
   const auto l = lit_floor(0.14);
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   const std::vector<TreeNodeId> nodes = cut_below(tree, 2, false);
   const std::vector<MidpointStencil> crosses = crosses_of(l->mesh, tree, nodes);
   std::vector<glm::vec3> light = parabolas(l->mesh);
@@ -124,7 +124,7 @@ TEST(NodeEdges, SaddlesDivideNodes) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 1.0 / 16.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   std::vector<glm::vec3> saddle;
   for (const Point3& at : l->mesh.vertices)
     saddle.emplace_back(float(8.0 + c * (at.x * at.x - at.z * at.z)));

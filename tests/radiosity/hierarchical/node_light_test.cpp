@@ -34,7 +34,7 @@ LitVertices lit_vertices(const LitScene& l, std::uint32_t seed = 0) {
 
 /// The light on elements by their corners; nothing is covered.
 DirectIrradiance by_corners(const LitScene& l, std::uint32_t seed = 0) {
-  const NodeTree tree = make_node_tree(l.mesh, l.surfaces);
+  const NodeTree tree = make_node_tree(*l.light);
   return light_by_corners(*l.light, tree, std::vector<ContactMask>(element_count(l.mesh), 0),
                           lit_vertices(l, seed).found, {.seed = seed}, {});
 }
@@ -72,7 +72,7 @@ TEST(NodeLight, PenumbraeAreNeitherDarkerNorBrighter) {
   const double many =
       mean_over(
           *coarse,
-          direct_irradiance(*coarse->light, {}, {.points = 64, .most_points = 1024}).irradiance,
+          direct_irradiance(*coarse->light, {}, {.points = 64, .max_points = 1024}).irradiance,
           "ceiling")
           .g;
   EXPECT_LT(many, 0.15);
@@ -176,7 +176,7 @@ TEST(NodeLight, CornersTellThePartOfPunctualLights) {
 // what is open of them is as bright as it is by itself, and what is covered is dark.
 TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
   const auto l = lit(plates(), {.element_size = 1.0 / 128.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   std::vector<ContactMask> covered(element_count(l->mesh), 0);
   std::vector<std::size_t> in_part, whole;
   for (std::size_t e = 0; e < covered.size(); e += 1000) {

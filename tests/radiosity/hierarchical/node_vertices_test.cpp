@@ -44,7 +44,7 @@ std::vector<Scene> rooms_and_figures() {
 TEST(NodeVertices, SharesOfPositionsArePositions) {
   for (const Scene& scene : rooms_and_figures()) {
     const auto l = lit(scene, {.element_size = 0.15});
-    const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+    const NodeTree tree = make_node_tree(*l->light);
     const std::vector<TreeNodeId> nodes = uneven_cut(l->mesh, tree);
     const InterpolationWeights shares = vertex_shares(l->mesh, tree, nodes);
     std::size_t gathering = 0;
@@ -69,7 +69,7 @@ TEST(NodeVertices, SharesOfPositionsArePositions) {
 TEST(NodeVertices, SharesEndAtVerticesThatGather) {
   for (const Scene& scene : rooms_and_figures()) {
     const auto l = lit(scene, {.element_size = 0.15});
-    const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+    const NodeTree tree = make_node_tree(*l->light);
     const InterpolationWeights shares = vertex_shares(l->mesh, tree, uneven_cut(l->mesh, tree));
     const auto takes_from_others = [&](std::size_t v) {
       return !gathers(shares, v) && shares.between[v] == 0;
@@ -89,7 +89,7 @@ TEST(NodeVertices, VerticesStandForTheLargestNodeThatWantsThem) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   std::vector<TreeNodeId> nodes = parts_of(tree, static_cast<TreeNodeId>(0));
   ASSERT_EQ(nodes.size(), 4U);
   const std::vector<TreeNodeId> smaller = parts_of(tree, nodes.front());
@@ -120,7 +120,7 @@ TEST(NodeVertices, NodesGiveWayToBendsOnly) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   const std::vector top{static_cast<TreeNodeId>(0)};
   const auto parts = [&](double level, double bow, double slope, double x) {
     std::vector<glm::vec3> light;
@@ -148,7 +148,7 @@ TEST(NodeVertices, NodesOfTwoPartsGiveWayToBendsAcrossThem) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {2, 0, 0}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   const std::vector top{static_cast<TreeNodeId>(0)};
   ASSERT_EQ(tree.nodes[0].child_count, 2);
   const std::vector<std::uint8_t> valid(l->mesh.vertices.size(), 1);
@@ -181,7 +181,7 @@ TEST(NodeVertices, NodesGiveWayToWhatStandsOnAPartOfThem) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
-  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const NodeTree tree = make_node_tree(*l->light);
   const std::vector<TreeNodeId> top{static_cast<TreeNodeId>(0)};
   const std::vector<glm::vec3> light(l->mesh.vertices.size(), glm::vec3(1.0F));
   const auto parts = [&](auto is_covered) {

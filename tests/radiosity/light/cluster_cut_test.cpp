@@ -1,4 +1,4 @@
-// Bright clusters far away together: within the stated error of their closed forms,
+// Secondary emitters far away together: within the stated error of their closed forms,
 // through mirrors as in the doubled room, and nowhere that any of them is cut.
 #include "radiosity/light/cluster_cut.h"
 #include "form_factors/point_form_factor.h"

@@ -47,7 +47,7 @@ Receiver on_floor(const LitScene& lit, double x, double z) {
 
 /// Means at the one point, as many times.
 std::vector<double> means_at(const LitScene& lit, const Receiver& receiver, int count,
-                             std::uint32_t seed, SharedLightSettings settings = {.learns = true}) {
+                             std::uint32_t seed, SharedLightSettings settings = {.caches_occluders = true}) {
   SharedLightWorkspace work;
   std::vector<double> means;
   for (int k = 0; k < count; ++k) {
@@ -149,7 +149,7 @@ TEST(OccluderCache, MeansAreTrueWhetherTheyAreKnownOrNot) {
     for (int seed = 0; seed < runs; ++seed) {
       // All points are looked at: what settles early is a matter of its own.
       const double mean = means_at(*room, receiver, count, static_cast<std::uint32_t>(seed),
-                                   {.points = 16, .most_points = 16, .learns = true})
+                                   {.points = 16, .max_points = 16, .caches_occluders = true})
                               .back();
       sum += mean;
       squares += mean * mean;

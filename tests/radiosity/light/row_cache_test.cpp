@@ -11,7 +11,7 @@
 namespace meninas::test {
 namespace {
 
-constexpr int few_rays = 128, many_rays = 512;
+constexpr int first_rays = 128, many_rays = 512;
 
 /// A room with a mirror, whose elements reflect more the further on they are.
 struct Room {
@@ -27,8 +27,8 @@ struct Room {
       values.emplace_back(0.1 + double(e % 7));
     return values;
   }();
-  PointGathering few{*l->light, reflected, {}, {}, {.rays = few_rays}},
-      many{*l->light, reflected, {}, {}, {.rays = many_rays, .rays_before = few_rays}};
+  PointGathering few{*l->light, reflected, {}, {}, {.rays = first_rays}},
+      many{*l->light, reflected, {}, {}, {.rays = many_rays, .rays_before = first_rays}};
   Receiver point = [this] {
     const MeshSide& side =
         l->mesh.sides[index(l->mesh.side_of_element[elements_of(*l, "y0").front()])];
@@ -40,9 +40,9 @@ struct Room {
 constexpr double of_floats = 1e-5;
 
 TEST(RowCache, AreTheBeginningOfMore) {
-  const HemisphereSamples all = make_direction_net(many_rays), first = make_direction_net(few_rays),
-                     others = make_direction_net(many_rays, few_rays);
-  EXPECT_EQ(others.first, static_cast<std::uint32_t>(few_rays));
+  const HemisphereSamples all = make_direction_net(many_rays), first = make_direction_net(first_rays),
+                     others = make_direction_net(many_rays, first_rays);
+  EXPECT_EQ(others.first, static_cast<std::uint32_t>(first_rays));
   auto together = first.points, expected = all.points;
   together.insert(together.end(), others.points.begin(), others.points.end());
   std::ranges::sort(together);
@@ -59,7 +59,7 @@ TEST(RowCache, TellWhatAllTell) {
   const GatheredRays kept = work.gather.result;
   work.rays = 0;
   const PointLight in_two = indirect_light_at(room.many, room.point, 3, work, &kept);
-  EXPECT_LT(work.rays, traced_at_once - few_rays + 1);
+  EXPECT_LT(work.rays, traced_at_once - first_rays + 1);
   EXPECT_NEAR(in_two.indirect().total.g, at_once.indirect().total.g,
               of_floats * at_once.indirect().total.g);
   EXPECT_NEAR(in_two.indirect().mirrored.g, at_once.indirect().mirrored.g,
@@ -78,24 +78,24 @@ TEST(RowCache, AreLookedAtAnew) {
   std::vector<Rgb> doubled = room.reflected;
   for (Rgb& value : doubled)
     value *= 2.0;
-  const PointGathering other(*room.l->light, doubled, {}, {}, {.rays = few_rays});
+  const PointGathering other(*room.l->light, doubled, {}, {}, {.rays = first_rays});
   const double expected =
       indirect_value_at(other, lit, {room.point, 0.25, 3}, work).indirect.total.g;
   work.rays = 0;
   const VertexValue again = indirect_value_at(other, lit, {room.point, 0.25, 3}, work, &kept);
   EXPECT_EQ(work.rays, 0U);
   EXPECT_NEAR(again.indirect.total.g, expected, of_floats * expected);
-  EXPECT_EQ(again.cover, Cover::open);
+  EXPECT_EQ(again.clearance, Clearance::open);
 }
 
 TEST(RowCache, AreOfTheFirstThatAsk) {
   RowCache kept;
-  const std::uint32_t as_many = max_cached_rays / few_rays;
+  const std::uint32_t as_many = max_cached_rays / first_rays;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < as_many + 10; ++v)
     vertices.push_back(3 * v);
-  kept.make_room(std::span(vertices).first(100), few_rays);
-  kept.make_room(vertices, few_rays);
+  kept.make_room(std::span(vertices).first(100), first_rays);
+  kept.make_room(vertices, first_rays);
   EXPECT_NE(kept.of(0), nullptr);
   EXPECT_EQ(kept.of(1), nullptr);
   EXPECT_NE(kept.of(vertices[as_many - 1]), nullptr);

@@ -23,7 +23,7 @@ Scene room_with_bulb(int n) {
 
 struct ChoiceError {
   double largest = 0.0, rms = 0.0; ///< relative to all images
-  std::size_t most_images = 0;     ///< at a point
+  std::size_t max_images = 0;     ///< at a point
 };
 
 /// Direct light at 64 points of the floor by default settings, against that of all images.
@@ -35,7 +35,7 @@ ChoiceError choice_error(const LitScene& l) {
   for (int k = 0; k < points; ++k) {
     const Receiver floor{{0.3 + 0.4 * (k % 8), 0.01, 0.3 + 0.4 * (k / 8)}, {0, 1, 0}};
     const double few = direct_irradiance(*l.light, floor, {}, 17U + k, work).total.r;
-    error.most_images = std::max(error.most_images, work.lights.size());
+    error.max_images = std::max(error.max_images, work.lights.size());
     const double all =
         direct_irradiance(*l.light, floor, {.images = 1 << 24}, 17U + k, work).total.r;
     error.largest = std::max(error.largest, std::abs(few / all - 1.0));
@@ -52,7 +52,7 @@ TEST(LampFaces, AreSeenTogetherFromAfar) {
   // Nodes of a radius of a fifth of their distance: off by about a third of its square, 1.3 %.
   EXPECT_LT(error.largest, 0.015);
   // Of 1,152 faces no more than the shadow rays of one image: nothing is hidden in part.
-  EXPECT_LE(error.most_images, std::size_t{16});
+  EXPECT_LE(error.max_images, std::size_t{16});
 }
 
 // Hundreds of lamps that stand apart are chosen from as ever: half a shadow of each is not one of all.
@@ -76,9 +76,9 @@ TEST(LampFaces, TakeFewSamples) {
   const auto l = lit(room_with_bulb(24), {.element_size = 0.5});
   const auto few = lit(room_with_bulb(3), {.element_size = 0.5});
   for (std::uint32_t e = 0; e < element_count(l->mesh); ++e)
-    EXPECT_EQ(needs_few_samples(*l->light, ElementId{e}), l->mesh.emission[e] != Rgb(0.0));
+    EXPECT_EQ(has_reduced_samples(*l->light, ElementId{e}), l->mesh.emission[e] != Rgb(0.0));
   for (std::uint32_t e = 0; e < element_count(few->mesh); ++e)
-    EXPECT_FALSE(needs_few_samples(*few->light, ElementId{e}));
+    EXPECT_FALSE(has_reduced_samples(*few->light, ElementId{e}));
   // Eight of them take what one other does.
   constexpr std::size_t faces = 2 * 24 * 24;
   EXPECT_EQ(sampled_elements(*l->light), element_count(l->mesh) - faces + faces / 8);
@@ -95,7 +95,7 @@ TEST(SmallElements, ShareSamplesWhereTheyAreMostOfAll) {
     const double asked = 2.0 * (4.0 * 4.0 + 2.0 * 4.0 * 2.6) / 0.25;
     EXPECT_EQ(l->light->finely_tessellated, 2.0 * rings * rings > std::max(4.0 * asked, 4096.0));
     for (std::uint32_t e = 0; e < element_count(l->mesh); ++e)
-      EXPECT_EQ(needs_few_samples(*l->light, ElementId{e}),
+      EXPECT_EQ(has_reduced_samples(*l->light, ElementId{e}),
                 l->light->finely_tessellated && l->mesh.area[e] < 0.25 / 16.0);
   }
 }

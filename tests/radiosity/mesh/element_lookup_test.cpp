@@ -14,7 +14,7 @@ namespace {
 struct QuadWorld {
   Scene scene;
   SurfaceModel surfaces;
-  LandingTable table;
+  ElementLookup table;
 
   explicit QuadWorld(const std::vector<Vec2>& corners) {
     const Vec3 along = glm::normalize(Vec3(1.0, 0.3, -0.2));
@@ -26,7 +26,7 @@ struct QuadWorld {
     surfaces = find_surfaces(scene);
     const MirrorSet mirrors = plan_transport(scene, surfaces).mirrors;
     const ElementMesh mesh = make_element_mesh(scene, surfaces, MeshSettings{});
-    table = make_landing_table(scene, surfaces, mirrors, mesh, {1.0, 2.0, 3.0}, 1.0);
+    table = make_element_lookup(scene, surfaces, mirrors, mesh, {1.0, 2.0, 3.0}, 1.0);
   }
 };
 
@@ -41,7 +41,7 @@ double largest_error(const QuadWorld& world) {
         b1 = 1.0 - b1, b2 = 1.0 - b2;
       const auto f1 = static_cast<float>(b1), f2 = static_cast<float>(b2);
       const Vec2 exact = patch_uv(world.surfaces, TriangleId{t}, Vec2(f1, f2));
-      const Vec2 found(landing_uv(world.table.faces[2 * t], world.surfaces, t, f1, f2));
+      const Vec2 found(hit_uv(world.table.faces[2 * t], world.surfaces, t, f1, f2));
       error = std::max({error, std::abs(exact.x - found.x), std::abs(exact.y - found.y)});
     }
   return error;

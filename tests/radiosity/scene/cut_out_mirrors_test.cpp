@@ -134,7 +134,7 @@ TEST(CutOutMirrors, ThrowTheLightOfSharedRaysAsPolygonsDo) {
     for (std::uint32_t mean = 0; mean < 64; ++mean) {
       std::uint32_t next = 0;
       const auto point = [&]() -> NumberedPoint { return {x, next++}; };
-      sum += mean_direct_irradiance(*l.light, point, {.learns = true}, hash(7, mean), work).mirrored.g;
+      sum += mean_direct_irradiance(*l.light, point, {.caches_occluders = true}, hash(7, mean), work).mirrored.g;
     }
     return sum / 64.0;
   });

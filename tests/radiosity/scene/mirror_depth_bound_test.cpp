@@ -39,7 +39,7 @@ Tail tail_of(Scene scene, const WorldSettings& worlds, int rays) {
   }
   tail.measured /= area;
   tail.cut /= area;
-  tail.bound = l->plan.world_tail;
+  tail.bound = l->plan.mirror_depth_bound;
   return tail;
 }
 
@@ -75,7 +75,7 @@ TEST(WorldTail, FallsWithTheSquareOfTheDepthBetweenPerfectMirrors) {
   const auto bound = [&](int depth) {
     const WorldTree tree =
         mirror_worlds(mirrors, {.min_throughput = 0.0, .max_depth = depth, .max_worlds = 10'000});
-    return world_tail_bound(tree, mirrors, area);
+    return mirror_depth_bound(tree, mirrors, area);
   };
   // Between squares k sides apart F = 1/(pi k^2) (1 - O(1/k^2)):
   // depth k ends at windows k sides away, on two sides.
@@ -92,7 +92,7 @@ TEST(WorldTail, LittleIsLost) {
 
 TEST(WorldTail, NothingBeyondASingleMirror) {
   const Scene scene = half_room();
-  EXPECT_EQ(plan_transport(scene, find_surfaces(scene)).world_tail, 0.0);
+  EXPECT_EQ(plan_transport(scene, find_surfaces(scene)).mirror_depth_bound, 0.0);
 }
 
 } // namespace

@@ -249,10 +249,10 @@ TEST(Plan, SunsOfAPictureAreDirectionalLights) {
   Scene scene = room_with(solid_glass(Rgb(1.0)));
   const auto says = [&] { return plan_of(scene).warnings; };
   scene.background = sky_of([](const Direction&) { return Rgb(1.0); });
-  EXPECT_THAT(says(), Not(Contains(HasSubstr("solid glass does not bend"))));
+  EXPECT_THAT(says(), Not(Contains(HasSubstr("solid glass does not refract"))));
   scene.background =
       sky_of([](const Direction& d) { return Rgb(d.y > std::cos(0.02) ? 1e6 : 1.0); });
-  EXPECT_THAT(says(), Contains(HasSubstr("solid glass does not bend")));
+  EXPECT_THAT(says(), Contains(HasSubstr("solid glass does not refract")));
 }
 
 } // namespace

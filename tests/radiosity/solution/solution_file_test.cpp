@@ -105,7 +105,7 @@ TEST_F(SolutionFile, KeepsADividedMesh) {
   std::vector<std::uint8_t> marked(element_count(mesh_), 0);
   marked[0] = marked[5] = marked.back() = 1;
   solution_.field.scene =
-      light_scene_on(*solution_.field.scene, divide_elements(mesh_, surfaces_, marked));
+      light_scene_on(solution_.field.scene, divide_elements(mesh_, surfaces_, marked));
   const ElementMesh& own = solution_.field.mesh();
   for (const FieldPart& part : field_parts)
     (solution_.field.*part.values).assign(own.vertices.size(), glm::vec3(0.5F));

@@ -96,7 +96,7 @@ TEST(Progressive, CubeOfSixPatches) {
   const Material wall = diffuse(0.5);
   add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, diffuse(0.5, 1.0), wall, wall, wall});
   PassOneSettings settings = shooting(1e6, 1 << 15, 1e-6);
-  settings.direct.points = settings.direct.most_points = 1024;
+  settings.direct.points = settings.direct.max_points = 1024;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element = 1;
   const auto l = lit(std::move(scene), settings.mesh);
   const RadiositySolution solution = shoot_pass_one(l->light, settings);

@@ -11,7 +11,7 @@
 namespace meninas::test {
 namespace {
 
-constexpr DirectSettings few_points{.points = 4, .most_points = 4};
+constexpr DirectSettings four_points{.points = 4, .max_points = 4};
 
 TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
   constexpr double tolerance = 1e-6;
@@ -24,7 +24,7 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
     if (element_count(l->mesh) > 1000)
       continue; // of many small patches: elimination would take its time
     ++scenes;
-    const System system = system_of(*l, {.rays = 64}, few_points);
+    const System system = system_of(*l, {.rays = 64}, four_points);
     const SolverResult direct = solve(system.transport, system.source, system.reflectance,
                                       {SolverMethod::direct, tolerance});
     EXPECT_TRUE(direct.converged);
@@ -54,7 +54,7 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
              {glass, glass, diffuse(rho, 1.0), diffuse(rho), glass, glass});
     const auto l = lit(std::move(scene), {.element_size = 0.25});
     const System system =
-        system_of(*l, {.rays = 1024}, {.points = 4, .most_points = 4, .images_in_element = 1000});
+        system_of(*l, {.rays = 1024}, {.points = 4, .max_points = 4, .images_in_element = 1000});
     for (const SolverMethod method : solver_methods) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-5});
@@ -74,7 +74,7 @@ TEST(SolverAgreement, FurnaceOfAMillionBounces) {
   const double rho = 1.0 - 1e-6;
   for (const bool with_mirrors : {false, true}) {
     const auto l = lit(furnace(rho, {with_mirrors}), {.element_size = 0.25});
-    const System system = system_of(*l, {.rays = 256}, few_points);
+    const System system = system_of(*l, {.rays = 256}, four_points);
     for (const SolverMethod method : {SolverMethod::direct, SolverMethod::bicgstab}) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-3});
@@ -90,7 +90,7 @@ TEST(SolverAgreement, FurnaceOfAMillionBounces) {
 
 TEST(SolverAgreement, FurnaceWithoutAbsorption) {
   const auto l = lit(furnace(1.0, {true}), {.element_size = 0.25});
-  const System system = system_of(*l, {.rays = 256}, few_points);
+  const System system = system_of(*l, {.rays = 256}, four_points);
   EXPECT_EQ(solve(system.transport, system.source, system.reflectance).end, SolverEnd::unsolvable);
 }
 

@@ -18,7 +18,7 @@ double even(std::size_t k, std::uint32_t seed) {
 }
 
 /// Contrasts as pictures have them: most next to none, a few a thousand times the others.
-std::vector<double> few_high(std::size_t count) {
+std::vector<double> peaked_contrasts(std::size_t count) {
   std::vector<double> contrasts(count);
   for (std::size_t k = 0; k < count; ++k)
     contrasts[k] = std::pow(even(k, 7), 12.0);
@@ -82,7 +82,7 @@ struct Disc {
 
 TEST(NoiseChoice, ChancesAreThoseOfSoManyPixels) {
   constexpr std::size_t count = 1000;
-  const std::vector<double> contrasts = few_high(count);
+  const std::vector<double> contrasts = peaked_contrasts(count);
   for (const std::size_t wanted : {1, 20, 300, 700, 999}) {
     const std::vector<double> chances = chances_by(contrasts, wanted);
     ASSERT_EQ(chances.size(), count);
@@ -111,7 +111,7 @@ TEST(NoiseChoice, ChancesAreHalfEvenHalfByContrast) {
 }
 
 TEST(NoiseChoice, DrawsSoManyAndNoneTwice) {
-  const std::vector<double> contrasts = few_high(1000);
+  const std::vector<double> contrasts = peaked_contrasts(1000);
   for (const std::size_t wanted : {1, 20, 300, 700, 999}) {
     const std::vector<double> chances = chances_by(contrasts, wanted);
     for (std::uint32_t seed = 0; seed < 64; ++seed) {
@@ -128,7 +128,7 @@ TEST(NoiseChoice, DrawsSoManyAndNoneTwice) {
 
 TEST(NoiseChoice, DrawsEachWithItsChance) {
   constexpr std::uint32_t draws = 1 << 14;
-  const std::vector<double> chances = chances_by(few_high(60), 20);
+  const std::vector<double> chances = chances_by(peaked_contrasts(60), 20);
   std::vector<double> counts(chances.size(), 0.0);
   for (std::uint32_t seed = 0; seed < draws; ++seed)
     for (const std::size_t k : drawn_by(chances, hash(seed, 5)))
@@ -142,7 +142,7 @@ TEST(NoiseChoice, DrawsEachWithItsChance) {
 TEST(NoiseChoice, DrawsAreSpreadOverTheList) {
   // Up to any place as many as the chances there sum to, rounded up or down;
   // other seeds draw others.
-  const std::vector<double> chances = chances_by(few_high(500), 100);
+  const std::vector<double> chances = chances_by(peaked_contrasts(500), 100);
   for (std::uint32_t seed = 0; seed < 64; ++seed) {
     const std::vector<std::size_t> drawn = drawn_by(chances, seed);
     double sum = 0.0;

@@ -31,12 +31,12 @@ TwoPassSettings quick() {
 
 /// Pass one once, pictures as wanted.
 struct Lit {
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   RadiositySolution solution;
 
   Lit(const Scene& scene, const TwoPassSettings& settings)
       : prepared(prepare_scene(scene, settings.pass_one)),
-        solution(solve_pass_one(prepared->light, settings.pass_one)) {}
+        solution(solve_pass_one(prepared->light(), settings.pass_one)) {}
   const LightScene& light() const { return *solution.field.scene; }
   const Camera& camera() const { return prepared->scene.cameras.front(); }
   Image picture(const RenderSettings& settings) const {

@@ -16,7 +16,7 @@ namespace {
 /// A room, with a field of which one vertex of a wall in sight is wrong.
 struct SpoiltRoom {
   TwoPassSettings settings;
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   RadiositySolution solution;
   IrradianceField field;
   Image right, spoilt;
@@ -30,7 +30,7 @@ struct SpoiltRoom {
     Scene scene = half_room_with_small_mirror();
     scene.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 0.6, 1.0}, 1.4)};
     prepared = prepare_scene(scene, settings.pass_one);
-    solution = solve_pass_one(prepared->light, settings.pass_one);
+    solution = solve_pass_one(prepared->light(), settings.pass_one);
     field = solution.field;
     right = picture(solution.field);
     const auto& places = light().mesh.vertices;

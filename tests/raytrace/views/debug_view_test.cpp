@@ -26,7 +26,7 @@ PaintedView painted(DebugView view, const Taken& lit, const Camera& camera, Rend
   settings.width = 16;
   settings.height = 12;
   settings.mode = mode;
-  const auto& light = *lit.prepared->light;
+  const auto& light = *lit.prepared->light();
   const std::vector<RowClosure> rows = assemble_transport(light, {.rays = 64}).closure;
   return paint_view(view, lit.solution.field, rows, camera, settings);
 }
@@ -97,7 +97,7 @@ TEST(DebugView, LooksThroughTheEdgeOfTwoPanes) {
     const Point3 eyes[] = {{t - 1.0, 0.7 * t, 1.0 + t}, {0.0, t, 0.0}, {1e-3 * t, 1.0, 0.5 + t}};
     for (const Point3& eye : eyes) {
       const Camera camera = look_at(eye, {0.0, 0.1 + 0.9 * t, eye.z == 0.0 ? -1.0 : 0.0}, 0.1);
-      const Sight sight = look(*lit.prepared->light, camera, 1.0, {0.5, 0.5}, 3);
+      const Sight sight = look(*lit.prepared->light(), camera, 1.0, {0.5, 0.5}, 3);
       ASSERT_NEAR(sight.position.z, -1.0, 1e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
     }
   }

@@ -36,7 +36,7 @@ template <typename Mark>
 std::set<std::string> marked_nodes(const Scene& scene, const Camera& camera,
                                    std::vector<Mark> SeenElements::*marks, DiffuseTerm term) {
   const auto prepared = prepare_scene(scene, room_settings());
-  const LightScene& light = *prepared->light;
+  const LightScene& light = *prepared->light();
   RenderSettings settings = small_picture();
   settings.diffuse.term = term;
   const std::vector<Mark> seen = seen_elements(light, camera, settings).*marks;
@@ -97,7 +97,7 @@ TEST(SeenElements, AreThoseBehindAPaneAndTheBackOfAWall) {
   RenderSettings settings = small_picture();
   settings.max_bounces = 0;
   const SeenElements seen =
-      seen_elements(*prepared->light, look_at({4.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.1), settings);
+      seen_elements(*prepared->light(), look_at({4.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.1), settings);
   EXPECT_GT(std::ranges::count(seen.elements, 1), 0) << "the wall x = 0, through that at x = 2";
 }
 
@@ -124,7 +124,7 @@ TEST(SeenElements, HaveTheirDirectLightLookedUpWhereNoSightEnds) {
 TEST(SeenElements, WeighByTheThroughputOfThePathsThatShowThem) {
   const auto heaviest = [](const Scene& scene) {
     const auto prepared = prepare_scene(scene, room_settings());
-    const auto weights = seen_elements(*prepared->light, at_wall, small_picture()).direct;
+    const auto weights = seen_elements(*prepared->light(), at_wall, small_picture()).direct;
     return double{*std::ranges::max_element(weights)};
   };
   EXPECT_EQ(heaviest(room(diffuse(0.5), diffuse(0.5))), 1.0);
@@ -142,11 +142,11 @@ TEST(SeenElements, AreThoseThatLobesShow) {
 TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
-  const LightScene& light = *prepared->light;
+  const LightScene& light = *prepared->light();
   const Camera camera = look_at({1.6, 1.0, 1.0}, {0.0, 0.6, 0.8}, 0.5);
   const SeenElements seen = seen_elements(light, camera, small_picture());
-  const RadiositySolution all = solve_pass_one(prepared->light, settings),
-                          view = solve_for_view(prepared->light, settings, seen);
+  const RadiositySolution all = solve_pass_one(prepared->light(), settings),
+                          view = solve_for_view(prepared->light(), settings, seen);
   const auto share = double(std::ranges::count(seen.elements, 1)) / double(seen.elements.size());
   ASSERT_LT(share, 0.6);
   EXPECT_LT(view.form_factor_rays, all.form_factor_rays);
@@ -174,13 +174,13 @@ TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
 TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
-  std::vector<std::uint8_t> one(element_count(prepared->light->mesh), 0);
-  const RadiositySolution all = solve_pass_one(prepared->light, settings);
+  std::vector<std::uint8_t> one(element_count(prepared->light()->mesh), 0);
+  const RadiositySolution all = solve_pass_one(prepared->light(), settings);
   for (std::size_t e = 0; e < one.size(); e += one.size() / 7) {
     std::ranges::fill(one, 0);
     one[e] = 1;
     const std::vector<float> direct(one.begin(), one.end());
-    const RadiositySolution view = solve_for_view(prepared->light, settings, {one, direct});
+    const RadiositySolution view = solve_for_view(prepared->light(), settings, {one, direct});
     double worst = 0.0, mean = 0.0;
     for (std::size_t v = 0; v < all.field.indirect.size() && v < view.field.indirect.size(); ++v) {
       worst = std::max(worst, std::abs(double{view.field.indirect[v].g} -
@@ -200,10 +200,10 @@ TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
   Scene scene = room(diffuse(0.5), diffuse(0.5));
   add_polygon(scene, "shade", {{0.6, 1.0, 0.6}, {0.6, 1.0, 1.4}, {1.4, 1.0, 1.4}, {1.4, 1.0, 0.6}}, diffuse(0.5));
   const auto prepared = prepare_scene(std::move(scene), settings);
-  const std::size_t solved = element_count(prepared->light->mesh);
+  const std::size_t solved = element_count(prepared->light()->mesh);
   const std::vector<std::uint8_t> all(solved, 1);
   const auto elements = [&](const std::vector<float>& direct) {
-    return element_count(solve_for_view(prepared->light, settings, {all, direct}).field.mesh());
+    return element_count(solve_for_view(prepared->light(), settings, {all, direct}).field.mesh());
   };
   const auto weighing = [&](float weight) { return std::vector<float>(solved, weight); };
   std::vector<float> half = weighing(0.0F);
@@ -219,9 +219,9 @@ TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
-  const std::vector<std::uint8_t> everything(element_count(prepared->light->mesh), 1);
-  const RadiositySolution all = solve_pass_one(prepared->light, settings),
-                          view = solve_for_view(prepared->light, settings,
+  const std::vector<std::uint8_t> everything(element_count(prepared->light()->mesh), 1);
+  const RadiositySolution all = solve_pass_one(prepared->light(), settings),
+                          view = solve_for_view(prepared->light(), settings,
                                                 {everything, std::vector<float>(everything.size(), 1.0F)});
   EXPECT_EQ(all.field.irradiance, view.field.irradiance);
   EXPECT_EQ(all.field.indirect, view.field.indirect);

@@ -25,7 +25,7 @@ float linear(const Point3& x) { return static_cast<float>(10.0 + x.x + 2.0 * x.y
 float bent(const Point3& x) { return static_cast<float>(3.0 + std::sin(7.0 * x.x) + std::cos(5.0 * x.z + x.y)); }
 
 struct BakedRoom {
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   IrradianceField field;
   std::vector<gltf::PlacedPrimitive> primitives;
   FileCharts charts;
@@ -55,7 +55,7 @@ BakedRoom baked(Scene scene, const FieldValue& value, int size = 2048) {
   room.prepared = prepare_scene(std::move(scene), settings);
   for (const Point3& x : room.prepared->mesh.vertices)
     room.field.irradiance.emplace_back(value(x));
-  room.field.scene = room.prepared->light;
+  room.field.scene = room.prepared->light();
   room.charts = find_charts(room.field, room.primitives);
   room.layout = lay_out(room.charts.charts, room.prepared->mesh.element_size, size);
   room.map = fill_lightmap(room.field, room.field, room.charts.charts, room.layout, WithShown::yes);

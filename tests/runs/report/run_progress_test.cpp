@@ -91,5 +91,11 @@ TEST(Percent, IsReadable) {
   EXPECT_EQ(readable_percent(1.4), "over 100 %");
 }
 
+TEST(Percent, IsAboutANumberAlone) {
+  EXPECT_EQ(about_percent(0.0045), "about 0.45 %");
+  EXPECT_EQ(about_percent(1e-6), "under 0.01 %");
+  EXPECT_EQ(about_percent(1.4), "over 100 %");
+}
+
 } // namespace
 } // namespace meninas::test

@@ -18,6 +18,12 @@ TwoPassSettings settings_with(DiffuseTerm term) {
 const TwoPassSettings interpolated = settings_with(DiffuseTerm::interpolated),
                       direct = settings_with(DiffuseTerm::direct);
 
+TEST(ClosingLine, SaysAboutOfANumberAlone) {
+  EXPECT_EQ(describe_error({.mesh = 0.012, .pixels = 0.005, .total = 0.013}), "about 1.3 % off (mesh 1.2 %, camera rays 0.5 %)");
+  EXPECT_EQ(describe_error({.mesh = 1.5, .total = 1.5}), "over 100 % off (mesh over 100 %)");
+  EXPECT_EQ(describe_error({.total = 1e-6}), "under 0.01 % off");
+}
+
 TEST(FirstTurn, IsOfTheLargestPart) {
   EXPECT_THAT(suggest_option({.form_factors = 0.04, .pixels = 0.03, .total = 0.05}, interpolated),
               Optional(HasSubstr("--rays")));

@@ -1,4 +1,4 @@
-// Which knobs are turned next, from a run with made-up figures.
+// Which parameters are turned next, from a run with made-up figures.
 #include "runs/steering/steering_model.h"
 
 #include <gmock/gmock.h>
@@ -32,9 +32,9 @@ MeasuredRun run_with(double mesh, double mesh_direct, double form_factors, doubl
   return run;
 }
 
-TEST(Forecast, OfTheSameKnobsIsTheRunItself) {
+TEST(Forecast, OfTheSameParametersIsTheRunItself) {
   const MeasuredRun run = run_with(0.03, 0.02, 0.02, 0.04);
-  const Forecast same = forecast(run, run.knobs);
+  const Forecast same = forecast(run, run.parameters);
   EXPECT_NEAR(same.error, run.error.total, 1e-12);
   EXPECT_NEAR(same.cost, 0.03, 1e-12) << "pass one is there";
 }
@@ -44,7 +44,7 @@ TEST(Forecast, OfFindingOutIsWhatItsPixelsAndTheirSamplesTake) {
   run.pass_one_cost = run.pass_two_cost = 0.0;
   run.estimate_cost = 0.03;
   const auto seconds = [&](double elements, int rays, int samples) {
-    return forecast(run, {elements, rays, samples, run.knobs.term}).cost;
+    return forecast(run, {elements, rays, samples, run.parameters.term}).cost;
   };
   EXPECT_NEAR(seconds(600, 64, 16), 0.03, 1e-12) << "pixels of 4 are four times as many";
   EXPECT_NEAR(seconds(600, 64, 64), 0.02 + 0.01 * (16 + 16 + 64) / 3.0 / 16.0, 1e-12);
@@ -59,7 +59,7 @@ TEST(Forecast, DoesNotTakeWhatIsUnknownForNothing) {
   // Nearly all of the mesh's error is edges, as far as these are known:
   // exact ones may leave a tenth of it.
   const MeasuredRun run = run_with(0.09, 0.09, 0.0, 0.0);
-  Parameters direct = run.knobs;
+  Parameters direct = run.parameters;
   direct.term = DiffuseTerm::direct;
   EXPECT_NEAR(forecast(run, direct).error, 0.009, 1e-12);
   EXPECT_NEAR(forecast(run_with(0.09, 0.05, 0.0, 0.0), direct).error, std::sqrt(0.0081 - 0.0025),
@@ -70,46 +70,46 @@ TEST(Forecast, DoesNotTakeWhatIsUnknownForNothing) {
 // the camera rays of 64, not the vertices, which take as much as 200.
 TEST(Forecast, OfMoreSamplesLeavesTheFieldOfTheView) {
   MeasuredRun run = run_with(0.001, 0.0, 0.001, 0.1);
-  run.knobs.term = DiffuseTerm::direct;
-  run.knobs.samples = 16;
+  run.parameters.term = DiffuseTerm::direct;
+  run.parameters.samples = 16;
   run.samples_a_pixel = 16.0;
   run.pass_two_cost = 216.0;
   run.estimate_cost = 0.0;
-  Parameters more = run.knobs;
+  Parameters more = run.parameters;
   more.samples = 64;
   EXPECT_NEAR(forecast(run, more).cost, 64.0, 1e-9);
   more.rays *= 2;
   EXPECT_GT(forecast(run, more).cost, 264.0);
 }
 
-TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
+TEST(NextRun, TurnsTheParameterOfTheLargestPart) {
   const NextRun rays = next_run(run_with(0.001, 0.0, 0.1, 0.001), {}, 0.05, for_ever);
-  EXPECT_GT(rays.knobs.rays, Parameters{}.rays);
-  EXPECT_EQ(rays.knobs.samples, Parameters{}.samples);
+  EXPECT_GT(rays.parameters.rays, Parameters{}.rays);
+  EXPECT_EQ(rays.parameters.samples, Parameters{}.samples);
   EXPECT_THAT(rays.why, HasSubstr("form factors 10 %"));
   const NextRun samples = next_run(run_with(0.001, 0.0, 0.001, 0.1), {}, 0.05, for_ever);
-  EXPECT_GT(samples.knobs.samples, Parameters{}.samples);
-  EXPECT_EQ(samples.knobs.rays, Parameters{}.rays);
+  EXPECT_GT(samples.parameters.samples, Parameters{}.samples);
+  EXPECT_EQ(samples.parameters.rays, Parameters{}.rays);
   const NextRun edges = next_run(run_with(0.3, 0.3, 0.001, 0.001), {}, 0.05, for_ever);
-  EXPECT_EQ(edges.knobs.term, DiffuseTerm::direct) << "thousands of elements would do no better";
+  EXPECT_EQ(edges.parameters.term, DiffuseTerm::direct) << "thousands of elements would do no better";
   const NextRun smooth = next_run(run_with(0.1, 0.0, 0.001, 0.001), {}, 0.05, for_ever);
-  EXPECT_GT(smooth.knobs.elements, Parameters{}.elements);
+  EXPECT_GT(smooth.parameters.elements, Parameters{}.elements);
 }
 
 // 64 samples were next to nothing by interpolation;
 // with light computed at every hit fewer are enough for what is wanted.
 TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
   MeasuredRun run = run_with(0.026, 0.026, 0.001, 0.001);
-  run.knobs.samples = 64;
+  run.parameters.samples = 64;
   run.samples_a_pixel = 64.0;
-  run.knobs.elements = 100'000.0;
+  run.parameters.elements = 100'000.0;
   run.pass_one_cost = 20.0;
   const NextRun next = next_run(run, {}, 0.017, for_ever);
-  EXPECT_EQ(next.knobs.term, DiffuseTerm::direct);
-  EXPECT_LT(next.knobs.samples, 64);
+  EXPECT_EQ(next.parameters.term, DiffuseTerm::direct);
+  EXPECT_LT(next.parameters.samples, 64);
   EXPECT_LE(next.forecast.error, 0.017);
   const NextRun kept = next_run(run, {.samples = false}, 0.017, for_ever);
-  EXPECT_EQ(kept.knobs.samples, 64);
+  EXPECT_EQ(kept.parameters.samples, 64);
 }
 
 // Camera rays cost next to nothing: as many as there can be must not keep direct light,
@@ -119,7 +119,7 @@ TEST(NextRun, ComputesDirectLightWhereTheTimeIsShort) {
   run.direct_cost = 2e-4;
   run.uncertain = {0.2, 0.03, 0.005, 0.001};
   const NextRun next = next_run(run, {}, 0.014, 6.0);
-  EXPECT_EQ(next.knobs.term, DiffuseTerm::direct);
+  EXPECT_EQ(next.parameters.term, DiffuseTerm::direct);
   EXPECT_LE(next.forecast.cost, 6.0);
 }
 
@@ -129,10 +129,10 @@ TEST(NextRun, GoesBackWithWhatHardlyMattersWhereTheTimeIsShort) {
   MeasuredRun run = run_with(0.2, 0.2, 0.001, 0.002);
   run.direct_cost = 1.0;
   const NextRun next = next_run(run, {}, 0.014, 1.0);
-  EXPECT_EQ(next.knobs.term, DiffuseTerm::interpolated);
-  EXPECT_GT(next.knobs.elements, run.knobs.elements);
-  EXPECT_EQ(next.knobs.samples, run.knobs.samples);
-  EXPECT_EQ(next.knobs.rays, run.knobs.rays);
+  EXPECT_EQ(next.parameters.term, DiffuseTerm::interpolated);
+  EXPECT_GT(next.parameters.elements, run.parameters.elements);
+  EXPECT_EQ(next.parameters.samples, run.parameters.samples);
+  EXPECT_EQ(next.parameters.rays, run.parameters.rays);
 }
 
 TEST(NextRun, ForetellsWhatWasWanted) {
@@ -145,7 +145,7 @@ TEST(NextRun, ForetellsWhatWasWanted) {
 
 TEST(NextRun, DividesNoFurtherAtOnceThanIsKnown) {
   const NextRun next = next_run(run_with(0.2, 0.0, 0.001, 0.001), {}, 0.001, for_ever);
-  EXPECT_LE(next.knobs.elements, 16.0 * Parameters{}.elements);
+  EXPECT_LE(next.parameters.elements, 16.0 * Parameters{}.elements);
 }
 
 TEST(NextRun, GathersWhereMeshesDoNotHelp) {
@@ -153,7 +153,7 @@ TEST(NextRun, GathersWhereMeshesDoNotHelp) {
   MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001);
   coarse.divided = 700.0;
   MeasuredRun fine = coarse;
-  fine.knobs.elements *= 4.0;
+  fine.parameters.elements *= 4.0;
   fine.divided *= 4.0;
   fine.error.mesh *= std::sqrt(0.9);
   EXPECT_NEAR(measured_mesh_exponent(coarse, fine), 0.076, 0.001);
@@ -162,10 +162,10 @@ TEST(NextRun, GathersWhereMeshesDoNotHelp) {
   EXPECT_EQ(measured_mesh_exponent(edges, fine), 1.0) << "what is left of edges is not known";
   fine.gather_cost = 1e-5;
   const NextRun divided = next_run(fine, {}, 0.02, for_ever);
-  EXPECT_EQ(divided.knobs.term, DiffuseTerm::interpolated) << "by what meshes do as a rule";
+  EXPECT_EQ(divided.parameters.term, DiffuseTerm::interpolated) << "by what meshes do as a rule";
   fine.mesh_exponent = measured_mesh_exponent(coarse, fine);
   const NextRun gathered = next_run(fine, {}, 0.02, for_ever);
-  EXPECT_EQ(gathered.knobs.term, DiffuseTerm::gather);
+  EXPECT_EQ(gathered.parameters.term, DiffuseTerm::gather);
   EXPECT_LE(gathered.forecast.error, 0.02);
   EXPECT_THAT(gathered.why, HasSubstr("gathered at every hit"));
 }
@@ -176,7 +176,7 @@ TEST(NextRun, DoesNotTakeWhatWasNotDividedForWhatDivisionDoesNotHelp) {
   MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001);
   coarse.divided = 1000.0;
   MeasuredRun fine = coarse;
-  fine.knobs.elements *= 4.0;
+  fine.parameters.elements *= 4.0;
   fine.divided = 1100.0;
   EXPECT_EQ(measured_mesh_exponent(coarse, fine), coarse.mesh_exponent);
   fine.divided = 4000.0;
@@ -186,10 +186,10 @@ TEST(NextRun, DoesNotTakeWhatWasNotDividedForWhatDivisionDoesNotHelp) {
 // Light that is gathered everywhere may come from elements that are wrong: finer ones may not be.
 TEST(NextRun, DividesWhatIsGatheredFrom) {
   MeasuredRun run = run_with(0.15, 0.0, 0.0, 0.005);
-  run.knobs.term = DiffuseTerm::gather;
+  run.parameters.term = DiffuseTerm::gather;
   const NextRun next = next_run(run, {}, 0.05, for_ever);
-  EXPECT_GE(next.knobs.elements, 9.0 * run.knobs.elements) << "the square falls with their number";
-  EXPECT_EQ(next.knobs.term, DiffuseTerm::gather);
+  EXPECT_GE(next.parameters.elements, 9.0 * run.parameters.elements) << "the square falls with their number";
+  EXPECT_EQ(next.parameters.term, DiffuseTerm::gather);
   EXPECT_THAT(next.why, HasSubstr("mesh 15 %"));
 }
 
@@ -198,7 +198,7 @@ TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {
   // and one in fifty 64 instead of those.
   MeasuredRun run = run_with(0.001, 0.0, 0.001, 0.1);
   run.uncertain = {0.05, 0.02, 0.0, 0.0};
-  Parameters more = run.knobs;
+  Parameters more = run.parameters;
   more.samples = 16;
   run.estimate_cost = 0.0;
   const double picture = run.pass_two_cost;
@@ -210,19 +210,19 @@ TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {
   EXPECT_EQ(forecast(run, more).error, all.error) << "no pixel would take them";
 }
 
-TEST(NextRun, TurnsNoKnobFurtherThanNeeded) {
+TEST(NextRun, TurnsNoParameterFurtherThanNeeded) {
   const MeasuredRun run = run_with(0.055, 0.048, 0.02, 0.02);
   constexpr double wanted = 0.017;
   const NextRun next = next_run(run, {}, wanted, for_ever);
   ASSERT_LE(next.forecast.error, wanted);
-  std::vector<Parameters> less(3, next.knobs);
+  std::vector<Parameters> less(3, next.parameters);
   less[0].elements /= 2.0;
   less[1].rays /= 2;
   less[2].samples /= 4;
-  for (const Parameters& knobs : less)
-    if (knobs.elements >= run.knobs.elements && knobs.rays >= run.knobs.rays &&
-        knobs.samples >= run.knobs.samples) {
-      EXPECT_GT(forecast(run, knobs).error, wanted);
+  for (const Parameters& parameters : less)
+    if (parameters.elements >= run.parameters.elements && parameters.rays >= run.parameters.rays &&
+        parameters.samples >= run.parameters.samples) {
+      EXPECT_GT(forecast(run, parameters).error, wanted);
     }
 }
 
@@ -232,14 +232,14 @@ TEST(NextRun, StaysWithinTheTime) {
     EXPECT_LE(next.forecast.cost, seconds);
   }
   const MeasuredRun run = run_with(0.08, 0.06, 0.05, 0.06);
-  EXPECT_EQ(next_run(run, {}, 0.0, 1e-3).knobs, run.knobs) << "nothing fits";
+  EXPECT_EQ(next_run(run, {}, 0.0, 1e-3).parameters, run.parameters) << "nothing fits";
 }
 
-TEST(NextRun, LeavesKnobsThatWereSet) {
+TEST(NextRun, LeavesParametersThatWereSet) {
   const NextRun next =
       next_run(run_with(0.1, 0.05, 0.1, 0.1),
                {.elements = false, .rays = false, .samples = false, .term = false}, 0.01, for_ever);
-  EXPECT_EQ(next.knobs, Parameters{});
+  EXPECT_EQ(next.parameters, Parameters{});
   EXPECT_THAT(next.why, IsEmpty());
 }
 
@@ -247,18 +247,18 @@ TEST(NextRun, LeavesKnobsThatWereSet) {
 TEST(WorthTurning, IsWhatHelpedItsOwnPartOfTheError) {
   const MeasuredRun before = run_with(0.034, 0.0, 0.031, 0.034);
   MeasuredRun turned = run_with(0.089, 0.0, 0.008, 0.003);
-  turned.knobs.elements *= 4.0;
-  turned.knobs.rays *= 8;
-  turned.knobs.samples *= 16;
-  const FreeKnobs free = worth_turning({}, before, turned);
+  turned.parameters.elements *= 4.0;
+  turned.parameters.rays *= 8;
+  turned.parameters.samples *= 16;
+  const FreeParameters free = worth_changing({}, before, turned);
   EXPECT_FALSE(free.elements);
   EXPECT_TRUE(free.rays && free.samples && free.term);
   turned.error.form_factors = 0.04;
-  EXPECT_FALSE(worth_turning({}, before, turned).rays);
-  EXPECT_FALSE(worth_turning({.samples = false}, before, turned).samples) << "a user has set it";
-  turned.knobs = before.knobs;
-  turned.knobs.term = DiffuseTerm::gather;
-  const FreeKnobs gathered = worth_turning({}, before, turned);
+  EXPECT_FALSE(worth_changing({}, before, turned).rays);
+  EXPECT_FALSE(worth_changing({.samples = false}, before, turned).samples) << "a user has set it";
+  turned.parameters = before.parameters;
+  turned.parameters.term = DiffuseTerm::gather;
+  const FreeParameters gathered = worth_changing({}, before, turned);
   EXPECT_TRUE(gathered.elements && gathered.rays && gathered.samples);
   EXPECT_FALSE(gathered.term);
 }

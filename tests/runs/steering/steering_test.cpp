@@ -100,7 +100,7 @@ TEST(Steering, KeepsTheFieldOfTheViewToTheBit) {
       scene, scene.cameras.front(), {24, 24}, {}, {.error = 0.05, .seconds = {}}};
   const RunSettings settings = settings_of(request);
   const Parameters few{600.0, 32, 4, DiffuseTerm::direct}, many{600.0, 32, 16, DiffuseTerm::direct};
-  Steering kept{request, {}, settings, free_knobs(settings)}, fresh = kept;
+  Steering kept{request, {}, settings, free_parameters(settings)}, fresh = kept;
   run_with(kept, few, false);
   ASSERT_TRUE(kept.view);
   const SteeredRun after = run_with(kept, many, false), alone = run_with(fresh, many, false);

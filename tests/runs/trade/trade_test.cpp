@@ -1,4 +1,4 @@
-// Fronts, turns of knobs, and how a sweep spends its budget,
+// Fronts, turns of parameters, and how a sweep spends its budget,
 // on a scene whose times and errors are made up.
 #include "runs/steering/setting_options.h"
 #include "runs/trade/trade_sweep.h"
@@ -41,26 +41,26 @@ TEST(ParetoFront, SpreadIsRelativeToTheMean) {
 
 const TradeScene room{.mirrors = true};
 
-std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& scene) {
-  std::set<std::string> knobs;
-  for (const TurnedSettings& next : turned(spelled_out(settings), scene))
-    knobs.insert(next.turn.knob);
-  return knobs;
+std::set<std::string> parameters_of(const RunSettings& settings, const TradeScene& scene) {
+  std::set<std::string> parameters;
+  for (const ChangedSettings& next : turned(spelled_out(settings), scene))
+    parameters.insert(next.turn.parameter);
+  return parameters;
 }
 
 TEST(Parameters, AreAllTurned) {
-  EXPECT_THAT(knobs_of({}, room),
+  EXPECT_THAT(parameters_of({}, room),
               ElementsAre("bends", "diffuse", "elements", "form-factors", "interpolation", "link-error",
                           "mesh", "mirror-depth", "pixel-error", "rays", "samples", "solver",
                           "tolerance"));
-  EXPECT_FALSE(knobs_of({}, {.mirrors = false}).contains("mirror-depth"));
+  EXPECT_FALSE(parameters_of({}, {.mirrors = false}).contains("mirror-depth"));
 }
 
 // A quick look has its numbers written out as the presets have: each can be turned.
 TEST(Parameters, OfAQuickLookAreTurnedToo) {
   std::set<std::string> link_errors;
-  for (const TurnedSettings& next : turned(first_settings({}).front(), room))
-    if (next.turn.knob == "link-error")
+  for (const ChangedSettings& next : turned(first_settings({}).front(), room))
+    if (next.turn.parameter == "link-error")
       link_errors.insert(next.turn.from + " " + next.turn.to);
   EXPECT_THAT(link_errors, ElementsAre("0.02 0.01", "0.02 0.04"));
 }
@@ -68,8 +68,8 @@ TEST(Parameters, OfAQuickLookAreTurnedToo) {
 TEST(Parameters, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
   const RunSettings settings = spelled_out({});
   std::set<std::vector<std::string>> all{options_of(settings)};
-  for (const TurnedSettings& next : turned(settings, room)) {
-    EXPECT_TRUE(all.insert(options_of(next.settings)).second) << next.turn.knob;
+  for (const ChangedSettings& next : turned(settings, room)) {
+    EXPECT_TRUE(all.insert(options_of(next.settings)).second) << next.turn.parameter;
     EXPECT_NE(next.turn.from, next.turn.to);
   }
 }
@@ -79,8 +79,8 @@ TEST(Parameters, ElementsAreDoubledAndHalvedWithinLimits) {
     RunSettings settings = spelled_out({});
     settings.elements = from;
     std::vector<std::pair<int, bool>> all;
-    for (const TurnedSettings& next : turned(settings, room))
-      if (next.turn.knob == "elements")
+    for (const ChangedSettings& next : turned(settings, room))
+      if (next.turn.parameter == "elements")
         all.emplace_back(*next.settings.elements, next.finer);
     return all;
   };
@@ -94,8 +94,8 @@ TEST(Parameters, ElementsAreDoubledAndHalvedWithinLimits) {
 TEST(Parameters, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
   const auto pixel_errors = [](const RunSettings& settings) {
     std::set<std::pair<std::string, bool>> all;
-    for (const TurnedSettings& next : turned(settings, room))
-      if (next.turn.knob == "pixel-error")
+    for (const ChangedSettings& next : turned(settings, room))
+      if (next.turn.parameter == "pixel-error")
         all.insert({next.turn.to, next.finer});
     return all;
   };
@@ -112,7 +112,7 @@ TEST(Parameters, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
 TEST(Parameters, LightThatIsNotToldApartIsNotComputedAtHits) {
   const auto turns_diffuse = [](const RunSettings& settings) {
     return std::ranges::any_of(turned(spelled_out(settings), room),
-                               [](const auto& next) { return next.turn.knob == "diffuse"; });
+                               [](const auto& next) { return next.turn.parameter == "diffuse"; });
   };
   RunSettings settings;
   settings.interpolation = Interpolation::average;
@@ -184,7 +184,7 @@ TEST(Sweep, PointsDifferAndKnowWhereTheyCameFrom) {
   std::set<std::vector<std::string>> all;
   for (std::size_t k = 0; k < points.size(); ++k) {
     EXPECT_TRUE(all.insert(options_of(points[k].settings)).second) << k;
-    for (const KnobTurn& turn : points[k].turns)
+    for (const ParameterChange& turn : points[k].turns)
       EXPECT_LT(turn.parent, k);
   }
 }

@@ -27,7 +27,7 @@ WalkRoom room_with_two_lamps() {
   settings.mesh.element_size = 0.4;
   settings.lamps = LampGrouping::node;
   const auto prepared = prepare_scene(std::move(scene), settings);
-  return walk_room(solve_pass_one(prepared->light, settings).field);
+  return walk_room(solve_pass_one(prepared->light(), settings).field);
 }
 
 TEST(WalkLamps, AddUpToTheRoomAtEveryVertex) {
@@ -59,7 +59,7 @@ TEST(WalkLamps, WhatGlowsKnowsItsLamp) {
 }
 
 TEST(WalkLamps, AreTooManyForAPageBeyondABound) {
-  EXPECT_NO_THROW(check_walk_lamps("room.glb", most_walk_lamps, 0));
+  EXPECT_NO_THROW(check_walk_lamps("room.glb", max_walk_lamps, 0));
   const auto refusal = [](std::size_t lamps, std::size_t vertices) -> std::string {
     try {
       check_walk_lamps("room.glb", lamps, vertices);

@@ -18,7 +18,7 @@ using test::half_room_with_small_mirror;
 float linear(const Point3& x) { return static_cast<float>(10.0 + x.x + 2.0 * x.y - 3.0 * x.z); }
 
 struct LitRoom {
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   IrradianceField field;
 };
 
@@ -28,7 +28,7 @@ LitRoom lit_room(Scene scene) {
   LitRoom lit{prepare_scene(std::move(scene), settings), {}};
   for (const Point3& x : lit.prepared->mesh.vertices)
     lit.field.irradiance.emplace_back(linear(x));
-  lit.field.scene = lit.prepared->light;
+  lit.field.scene = lit.prepared->light();
   return lit;
 }
 
@@ -140,7 +140,7 @@ TEST(WalkRoom, OneThatIsTooLargeForAPageIsRefused) {
   const WalkPage page{.field = lit.field, .room = room, .title = "room", .cameras = {WalkCamera{}}};
   EXPECT_NE(walk_page_html(page, warnings).find("</html>"), std::string::npos);
   EXPECT_TRUE(warnings.empty());
-  room.indices.resize(3 * (most_walk_triangles + 1), 0);
+  room.indices.resize(3 * (max_walk_triangles + 1), 0);
   EXPECT_THROW(walk_page_html(page, warnings), InputError);
 }
 

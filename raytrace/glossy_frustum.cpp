@@ -1,4 +1,4 @@
-#include "raytrace/lobe_grid.h"
+#include "raytrace/glossy_frustum.h"
 
 #include "scenes/materials/bsdf.h"
 #include "scenes/materials/microfacets.h"
@@ -49,7 +49,7 @@ std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, do
   return weighed(bsdf, in, cosine, visible);
 }
 
-/// What makes a sum the albedo it should be.
+/// The factor that turns a sum into the albedo it should be.
 double norm(double albedo, double sum) { return sum > 0.0 ? albedo / sum : 0.0; }
 
 /// The lobe without width.
@@ -88,7 +88,7 @@ double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in)
   return 0.25 * facet_density(facets, glm::normalize(out + in)) / (out.z * (1.0 + lambda));
 }
 
-void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
+void glossy_frustum(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
                std::vector<LobeRay>& rays) {
   rays.clear();
   if (bsdf.alpha == 0.0)

@@ -1,4 +1,4 @@
-#include "radiosity/field/vertex_gathering.h"
+#include "radiosity/field/final_gathering.h"
 
 #include "radiosity/field/contact_vertices.h"
 #include "radiosity/field/curves/curved_vertices.h"
@@ -27,7 +27,7 @@ void for_each_array(VertexIrradiance& field, const Change& change) {
     change(*values);
 }
 
-/// Adds direct light to that of the lamps at a vertex, and sets the rest.
+/// Adds direct light to that of the lamps at a vertex, and sets indirect light.
 void take_by_lamp(const PointWorkspace& work, std::size_t v, VertexIrradiance& field) {
   for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
     if (!work.direct_by_lamp.empty())
@@ -46,7 +46,7 @@ VertexSamples make_samples(ElementMesh mesh) {
   found.receivers = vertex_receivers(found.mesh, found.around);
   const std::size_t count = found.mesh.vertices.size();
   found.states.assign(count, VertexState::unknown);
-  found.seen.assign(count, Visibility::alike);
+  found.seen.assign(count, Visibility::uniform);
   for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
   return found;
 }
@@ -62,7 +62,7 @@ VertexSamples make_samples(const LightScene& light, const VertexElements& facets
   make_room_for_lamps(light, found);
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (is_averaged(facets, v))
-      found.states[v] = VertexState::averaged;
+      found.states[v] = VertexState::smoothed;
   return found;
 }
 
@@ -95,17 +95,17 @@ bool is_open_so_far(const VertexSource& source, const VertexSamples& found, std:
     return !is_under_something(gathering.light, receiver, size);
   return clearance_of_unlit(gathering.light, gathering.form_factors, receiver, size,
                            hash(v, gathering.form_factors.seed, 0xc07e),
-                           source.workspaces.local()) == Cover::open;
+                           source.workspaces.local()) == Clearance::open;
 }
 
-/// Whether any corner of the elements around a vertex is open. Those that hang do not count.
+/// Whether any corner of the elements around a vertex is open. Hanging corners do not count.
 bool has_open_beside(const VertexSource& source, const VertexSamples& found, std::uint32_t vertex) {
   const auto is_open = [&](ElementVertexId v) {
     switch (found.states[index(v)]) {
-    case VertexState::averaged:
+    case VertexState::smoothed:
     case VertexState::gathered:
       return true;
-    case VertexState::lit:
+    case VertexState::direct_only:
       return is_open_so_far(source, found, index(v));
     default:
       return false;
@@ -116,11 +116,11 @@ bool has_open_beside(const VertexSource& source, const VertexSamples& found, std
   });
 }
 
-/// Of vertices under a low cover those beside something open are covered.
+/// Vertices under a low cover become covered if something open is beside them.
 void cover_low(const VertexSource& source, VertexSamples& found) {
   std::vector<std::uint32_t> low;
   for (std::uint32_t v = 0; v < found.states.size(); ++v)
-    if (found.states[v] == VertexState::low)
+    if (found.states[v] == VertexState::low_clearance)
       low.push_back(v);
   std::vector<std::uint8_t> beside_open(low.size(), 0);
   tbb::parallel_for(std::size_t{0}, low.size(), [&](std::size_t k) {
@@ -131,8 +131,8 @@ void cover_low(const VertexSource& source, VertexSamples& found) {
       found.states[low[k]] = VertexState::covered;
 }
 
-/// Which vertices are lit: those in one state, as far as they are marked, and the state they are in
-/// then. `level` as of vertex_seed().
+/// A step of lighting: the state of the vertices that are lit, as far as they are marked, and their state
+/// afterwards. `level` as of vertex_seed().
 struct VertexStep {
   VertexState now, then;
   std::span<const std::uint8_t> marked = {}; ///< by ElementVertexId; empty: all
@@ -171,9 +171,9 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
     if (!found.entering.empty())
       found.entering[v] += glm::vec3(found_here.irradiance.entering);
     if (found_here.irradiance.in_part)
-      found.seen[v] = Visibility::in_part;
-    found.states[v] = found_here.cover == Cover::open  ? step.then
-                      : found_here.cover == Cover::low ? VertexState::low
+      found.seen[v] = Visibility::partial;
+    found.states[v] = found_here.clearance == Clearance::open  ? step.then
+                      : found_here.clearance == Clearance::low ? VertexState::low_clearance
                                                        : VertexState::covered;
   };
   const std::size_t chunks = (vertices.size() + chunk_size - 1) / chunk_size;
@@ -184,7 +184,7 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
       light_vertex(k, work);
     report(source.part, double(++done) / double(chunks));
   });
-  // What is covered takes its light from beside it.
+  // Covered vertices take their light from beside them.
   std::vector<std::uint8_t> taken(mesh.vertices.size(), 0);
   for (const std::uint32_t v : vertices)
     taken[v] = has_value(found.states[v]) ? 1 : 0;
@@ -210,12 +210,12 @@ static bool mark_dark_beside_bright(const VertexSamples& found, ElementId elemen
                                     std::vector<std::uint8_t>& marked,
                                     std::vector<std::uint8_t>& asked) {
   const auto is_dark = [&](std::size_t v) {
-    return found.states[v] == VertexState::lit && found.field.irradiance[v] == glm::vec3(0.0F);
+    return found.states[v] == VertexState::direct_only && found.field.irradiance[v] == glm::vec3(0.0F);
   };
   const auto is_beside = [&](ElementVertexId v) {
     return found.states[index(v)] == VertexState::covered ||
            found.states[index(v)] == VertexState::gathered ||
-           (found.states[index(v)] == VertexState::lit && !is_dark(index(v)));
+           (found.states[index(v)] == VertexState::direct_only && !is_dark(index(v)));
   };
   const ElementCorners& corners = found.mesh.corners[index(element)];
   bool any = false;
@@ -238,7 +238,7 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
     any = mark_dark_beside_bright(found, ElementId{e}, marked, asked) || any;
   while (any) {
     light_each(
-        source, {VertexState::lit, VertexState::lit, marked}, found,
+        source, {VertexState::direct_only, VertexState::direct_only, marked}, found,
         [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
           return {{},
                   {},
@@ -255,14 +255,14 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
       for (const ElementId element : around(found.around, v))
         any = mark_dark_beside_bright(found, element, marked, asked) || any;
   }
-  // Under a low cover that goes on all around the rest of the light is still to be gathered.
-  std::ranges::replace(found.states, VertexState::low, VertexState::lit);
+  // Under a low cover that goes on all around, indirect light is still to be gathered.
+  std::ranges::replace(found.states, VertexState::low_clearance, VertexState::direct_only);
 }
 
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
-  light_each(source, {VertexState::unknown, VertexState::lit, {}, level}, found,
+  light_each(source, {VertexState::unknown, VertexState::direct_only, {}, level}, found,
              [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
-               return {light_from_source(source.gathering, found.receivers[v], seed, work), {}};
+               return {direct_light_at(source.gathering, found.receivers[v], seed, work), {}};
              });
   resample_near_penumbrae(source, level, found);
   cover_shut_in(source, found);
@@ -276,11 +276,11 @@ void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> mar
   if (keeps && source.keeps_more) {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < marked.size(); ++v)
-      if (marked[v] != 0 && found.states[v] == VertexState::lit)
+      if (marked[v] != 0 && found.states[v] == VertexState::direct_only)
         vertices.push_back(v);
     source.kept->make_room(vertices, gathering.net.points.size());
   }
-  light_each(source, {VertexState::lit, VertexState::gathered, marked}, found,
+  light_each(source, {VertexState::direct_only, VertexState::gathered, marked}, found,
              [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
                return indirect_value_at(gathering, source.irradiance,
                                         {found.receivers[v], size, seed}, work,
@@ -299,7 +299,7 @@ void light_contacts(const VertexSource& source, const VertexSamples& found,
   const std::vector<Receiver>& receivers = found.receivers;
   std::vector<std::uint8_t> open = valid;
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
-    if (found.states[v] == VertexState::low ||
+    if (found.states[v] == VertexState::low_clearance ||
         (found.states[v] == VertexState::gathered && touches_wall(gathering.light, receivers[v])))
       open[v] = 0;
   });
@@ -340,7 +340,7 @@ std::vector<std::uint8_t> with_values(const VertexSamples& found) {
 VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found) {
   VertexIrradiance field = found.field;
   std::vector<std::uint8_t> valid = with_values(found);
-  // What one lamp's light is at vertices without light of their own neighbours tell as well.
+  // Vertices without light of their own take each lamp's light from their neighbours as well.
   for (auto& [direct, indirect] : field.by_lamp)
     for (auto* values : {&direct, &indirect}) {
       settle_hanging(found.mesh, *values);

@@ -1,4 +1,5 @@
-// Shadow rays to points of emitters and of their images, leg by leg: V of D = sum tau E F V.
+// The visibility of virtual lights: shadow rays to points of emitters and of their images, leg by leg; V of D = sum tau
+// E F V.
 //
 // The segment from x to a point of the image of an emitter in world w = (m1 ... mk) crosses the
 // planes of its mirrors; folded back it has k + 1 legs in the real room, each of which must be free:
@@ -27,13 +28,13 @@ struct PolygonFan {
 Point3 point_on(const PolygonFan& fan, Vec2 sample);
 Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
 
-/// Of parts of a polygon: their area, and a point with density one over it. `last` is the area vector
-/// of the last one.
+/// The area of parts of a polygon, m^2, and a point with density one over it. `last` is the area vector
+/// of the last part.
 double area_of(std::span<const ConvexPolygon> parts);
 Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample);
 
-/// What blocks a segment, and on which of its legs:
-/// none where it touches an end of the leg, or a mirror has a hole.
+/// The triangle that blocks a segment, and the leg that it blocks:
+/// none where the blocker touches an end of the leg, or a mirror has a hole.
 struct LegBlocker {
   TriangleId triangle = none<TriangleId>;
   std::uint32_t leg = 0;
@@ -51,7 +52,7 @@ struct FoldedSegment {
 void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment,
           Solids solids = Solids::opaque);
 
-/// What solids are to the light of an emitter: rays find no area light behind them.
+/// The treatment of solids for the light of an emitter: rays find no area light behind them.
 inline Solids solids_before(const Emitter& emitter) {
   return emitter.area_light == no_area_light ? Solids::opaque : Solids::sheets;
 }
@@ -64,10 +65,10 @@ std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 1
                       std::uint32_t count, std::uint64_t& rays,
                       std::array<LegBlocker, 16>* blockers = nullptr);
 
-/// What glass and coats make of light on a free segment, beside the throughput of its world:
-/// the product of what passes each pane at the angle at which it is crossed,
-/// and of what each pane or coat that is a mirror of the world reflects at its angle over the mean
-/// that the world's throughput has for it. 1 where there are none.
+/// The factor of glass and coats on a free segment, beside the throughput of its world (dimensionless):
+/// the product of the transmittances of all panes at the angles at which they are crossed, and of the
+/// reflectances R(c) / R_mean of the panes and coats that are mirrors of the world. R_mean is in the
+/// world's throughput. 1 where there are none.
 Rgb transmittance_by_angle(const LightScene& light, const FoldedSegment& segment);
 
 /// A surface at the end of a segment, and the coat above it where that is a mirror.

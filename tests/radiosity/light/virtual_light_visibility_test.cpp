@@ -1,5 +1,5 @@
 // Segments through mirrors are blocked or free whichever others are tested with them.
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"

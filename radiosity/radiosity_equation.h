@@ -39,6 +39,11 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch);
 
+/// In the way that the settings ask for: shots where there are too many elements for rows (shoots_rays), nodes on a
+/// hierarchical cut, else rows.
+ReflectedLight reflected_light(const LightScene& light, const PassOneSettings& settings,
+                               const Progress& progress, const PassOneWatch& watch);
+
 ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings& settings,
                                   const Progress& progress, const PassOneWatch& watch);
 

@@ -1,4 +1,4 @@
-#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/virtual_light_visibility.h"
 
 #include "radiosity/scene/mirror_holes.h"
 #include "radiosity/scene/surface_colour.h"
@@ -101,7 +101,7 @@ static std::uint32_t occluded_lanes(const LightScene& light, RayPacket& packet,
   const auto alike = [&](const FoldedSegment& segment) { return segment.solids == folded[0].solids; };
   if (light.solids.empty() || std::all_of(folded.begin(), folded.begin() + packet.count, alike))
     return trace(folded[0].solids);
-  // Those of one kind at a time; a ray of no length meets nothing.
+  // Rays of one kind at a time; a ray of no length meets nothing.
   std::uint32_t dark = 0;
   const auto lengths = packet.max_distance;
   Blockers found{};

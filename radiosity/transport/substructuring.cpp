@@ -1,4 +1,4 @@
-#include "radiosity/transport/element_hierarchy.h"
+#include "radiosity/transport/substructuring.h"
 
 #include "radiosity/transport/face_clusters.h"
 
@@ -15,7 +15,7 @@ enum class Shape : std::uint8_t {
   region ///< that of a cut leaf whose element has the number i
 };
 
-/// What a node is made of.
+/// A piece of a side that a node is made of.
 struct Piece {
   Shape shape = Shape::grid;
   int i = 0, j = 0, nu = 1, nv = 1;
@@ -158,7 +158,7 @@ void mark_walled(const ElementMesh& mesh, std::uint32_t number, std::size_t leaf
   }
 }
 
-/// How much longer a root cell of the side is along u.
+/// The aspect ratio of a root cell of the side, u over v.
 double aspect_of(const MeshSide& side, const SurfaceModel& surfaces) {
   const auto& corners = surfaces.patches[index(side.patch)].corners;
   const double along_u = glm::distance(corners[0], corners[1]) / side.nu;
@@ -168,7 +168,9 @@ double aspect_of(const MeshSide& side, const SurfaceModel& surfaces) {
 
 } // namespace
 
-NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+NodeTree make_node_tree(const LightScene& light) {
+  const ElementMesh& mesh = light.mesh;
+  const SurfaceModel& surfaces = light.surfaces;
   NodeTree tree;
   tree.elements.resize(element_count(mesh));
   std::vector<Piece> pieces;
@@ -181,7 +183,7 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
     tree.nodes.push_back(node);
     pieces.push_back(p);
   };
-  const FaceClusters clusters = face_clusters(mesh, surfaces);
+  const FaceClusters clusters = face_clusters(light);
   const std::size_t first_side = clusters.size();
   tree.nodes.resize(first_side);
   pieces.resize(first_side);

@@ -1,4 +1,4 @@
-#include "runs/trade/trade_knobs.h"
+#include "runs/trade/trade_parameters.h"
 
 #include "runs/steering/setting_options.h"
 
@@ -17,21 +17,21 @@ RunSettings preset(const RunSettings& base, Quality quality) {
 /// Collects turns of one setting.
 struct Turner {
   const RunSettings& from;
-  std::vector<TurnedSettings> all = {};
+  std::vector<ChangedSettings> all = {};
 
   template <typename Change>
-  void turn(const char* knob, std::string was, std::string is, bool finer, Change&& change) {
-    TurnedSettings next{from, {knob, std::move(was), std::move(is), 0}, finer};
+  void turn(const char* parameter, std::string was, std::string is, bool finer, Change&& change) {
+    ChangedSettings next{from, {parameter, std::move(was), std::move(is), 0}, finer};
     change(next.settings);
     all.push_back(std::move(next));
   }
   /// One step up and one down, within limits.
   template <typename Number>
-  void steps(const char* knob, Number value, Number factor, Number least, Number most,
+  void steps(const char* parameter, Number value, Number factor, Number least, Number most,
              std::optional<Number> RunSettings::*field) {
     const auto to = [&](Number next, bool finer) {
       if (next >= least && next <= most)
-        turn(knob, fmt::format("{}", value), fmt::format("{}", next), finer,
+        turn(parameter, fmt::format("{}", value), fmt::format("{}", next), finer,
              [&](RunSettings& s) { s.*field = next; });
     };
     to(static_cast<Number>(value * factor), true);
@@ -159,7 +159,7 @@ std::vector<RunSettings> first_settings(const RunSettings& base) {
   return {spelled_out(look), preset(base, Quality::draft), preset(base, Quality::normal)};
 }
 
-std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene) {
+std::vector<ChangedSettings> turned(const RunSettings& settings, const TradeScene& scene) {
   Turner turner{settings};
   turn_mesh(turner);
   turn_transport(turner, scene);

@@ -1,4 +1,4 @@
-// The reflection frustum of a glossy surface (DESIGN 5):
+// The reflection frustum of a glossy surface (Wallace, Cohen, Greenberg 1987):
 // the solid angle of its lobe, divided into n x n directions with weights.
 //
 //   L(o) = sum_k w_k L(i_k),   w_k = S(o.h_k) g_k / norm,   g_k = G2(o, i_k) / G1(o),   i_k = o reflected at the facet normal h_k
@@ -45,7 +45,7 @@ int lobe_divisions(const Bsdf& bsdf, const Direction& out, double directions);
 
 /// The directions of light that leaves towards `out`, which is above the surface;
 /// `shift` in [0, 1)^2. Clears and fills `rays`.
-void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
+void glossy_frustum(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
                std::vector<LobeRay>& rays);
 
 /// One direction in place of the grid, or none where its facet reflects below the surface.

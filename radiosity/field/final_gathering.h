@@ -1,7 +1,7 @@
-// A field while it is found: values of vertices one by one, and what is known of each.
+// Final gathering (Reichert 1992): once the elements are solved, irradiance is gathered once more, at every vertex.
 //
-// Light is gathered at vertices (vertex_light.h):
-// that from the source and the rest together, or the rest only where it is asked for.
+// Light is gathered at vertices one by one (vertex_light.h):
+// direct and indirect together, or indirect light only where it is asked for.
 // Once all that are to have a value have one, the field is completed:
 // what stands on a surface takes what is gathered beside it (contact_vertices.h,
 // gap_vertices.h), vertices that hang take from their ends,
@@ -13,10 +13,9 @@
 
 namespace meninas {
 
-/// From elements of that reflected radiosity, with that share of the rays. `spared`:
-/// bright clusters that add so little to the noise of these are left to them (secondary_emitters.h).
-/// Where clusters lie in many planes their light takes longer than 128 rays.
-/// `before`: rays of as many as that share may have been traced before (row_cache.h).
+/// Gathers from elements with the radiosity `reflected`, using the fraction `share` of the rays.
+/// `spared`: ClusterSettings::spared. Clusters in many planes cost more than 128 rays.
+/// `before`: the share whose rays may already be cached (row_cache.h).
 PointGathering gathering_from(const LightScene& light, SentLight reflected,
                               const VertexGathering& how, RayShare share = {}, double spared = 0.0,
                               std::optional<RayShare> before = {});
@@ -24,18 +23,18 @@ PointGathering gathering_from(const LightScene& light, SentLight reflected,
 VertexSamples make_samples(ElementMesh mesh);
 /// Every lamp is dark at every vertex, where light is told apart.
 void make_room_for_lamps(const LightScene& light, VertexSamples& found);
-/// Of the scene's mesh. Vertices of these facets (smoothing_groups.h) are `averaged`, their values to come.
+/// The same on the scene's mesh. Vertices of these facets (smoothing_groups.h) are `smoothed`, their values to come.
 VertexSamples make_samples(const LightScene& light, const VertexElements& facets);
 
 /// Gathers at the vertices that are unknown and do not hang.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
 
-/// Direct light alone at those vertices. Of dark ones beside bright ones it tells
-/// which are covered: that they get no light but what neighbours have besides would show.
+/// Direct light only, at the same vertices. Dark vertices beside bright ones are also tested for cover: a
+/// covered one takes its neighbours' light, an open one keeps zero, and confusing the two is visible.
 /// `level` as above.
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
 
-/// Adds the rest at those that are lit and marked, by ElementVertexId.
+/// Adds indirect light at vertices that have direct light and are marked, by ElementVertexId.
 /// Takes rays that the source has kept of them, and keeps those of others if it keeps more.
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
                    VertexSamples& found);

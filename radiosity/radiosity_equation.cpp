@@ -1,4 +1,4 @@
-#include "radiosity/reflected_light.h"
+#include "radiosity/radiosity_equation.h"
 
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_solution.h"
@@ -13,7 +13,7 @@ namespace meninas {
 
 namespace {
 
-/// What a watch is shown of, and the seconds that takes.
+/// The data from which a watch is shown states, and the seconds that takes.
 struct Watched {
   const LightScene& light;
   const PassOneSettings& settings;
@@ -42,7 +42,7 @@ ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
     for (std::size_t i = 0; i < irradiance.size(); ++i)
       irradiance[i] += first.irradiance[i];
     const auto interpolated =
-        interpolate(light, {{}, std::move(irradiance), first.from_source}, settings.form_factors,
+        interpolate(light, {{}, std::move(irradiance), first.direct}, settings.form_factors,
                     settings.direct, {Interpolation::average});
     watch.look({shots.shots, interpolated.field,
                 ambient_irradiance(area, closure, shots.unshot,
@@ -146,6 +146,20 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
   solved.solve_seconds = nodes.seconds_solving;
   if (vertices_gather)
     solved.receivers = std::move(nodes.receivers);
+  return solved;
+}
+
+ReflectedLight reflected_light(const LightScene& light, const PassOneSettings& settings,
+                               const Progress& progress, const PassOneWatch& watch) {
+  if (shoots_rays(settings, element_count(light.mesh)))
+    return reflected_by_shots(light, settings, progress, watch);
+  if (settings.cut == MeshCut::hierarchical)
+    return reflected_by_nodes(light, settings, progress);
+  Stopwatch stopwatch;
+  const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
+  const double seconds = stopwatch.lap();
+  ReflectedLight solved = reflected_by_rows(light, factors, settings, progress, watch);
+  solved.form_factor_seconds += seconds;
   return solved;
 }
 

@@ -1,4 +1,4 @@
-// The knobs a sweep turns, one step each:
+// The parameters a sweep turns, one step each:
 // elements, link error, rays, form-factor method, solver and tolerance,
 // mirror depth, diffuse term, interpolation, camera rays and their pixel error.
 #pragma once
@@ -9,24 +9,24 @@
 
 namespace meninas {
 
-/// What a sweep is about; what the scene does not have is not turned.
+/// The features of a scene; parameters of features that it does not have are not turned.
 struct TradeScene {
   bool mirrors = false; ///< or their depth does not matter
 };
 
-/// Settings with all numbers of the knobs spelled out: elements, rays, samples.
+/// Settings with all numbers of the parameters spelled out: elements, rays, samples.
 RunSettings spelled_out(const RunSettings& settings);
 
 /// Where a sweep begins: a quick look, and the presets draft and normal.
 std::vector<RunSettings> first_settings(const RunSettings& base);
 
-struct TurnedSettings {
+struct ChangedSettings {
   RunSettings settings;
-  KnobTurn turn; ///< its parent is left to the caller
+  ParameterChange turn; ///< its parent is left to the caller
   bool finer =
       false; ///< expected to be slower and more accurate; otherwise faster, or one cannot tell
 };
 /// All settings one turn away.
-std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene);
+std::vector<ChangedSettings> turned(const RunSettings& settings, const TradeScene& scene);
 
 } // namespace meninas

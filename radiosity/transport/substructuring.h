@@ -1,5 +1,6 @@
-// The tree of nodes over the elements (Hanrahan, Salzman, Aupperle 1991):
-// parts of surfaces of any size, between which light goes.
+// Substructuring (Cohen, Greenberg, Immel, Brock 1986): light is sent and received by parts of surfaces that are
+// larger than the elements below them. The parts make a tree of nodes over the elements, of any depth
+// (Hanrahan, Salzman, Aupperle 1991).
 //
 // At the top is one node for each side, at the bottom the elements.
 // Above sides that are small faces of something larger are nodes for clusters of them (face_clusters.h).
@@ -36,7 +37,7 @@ struct NodeTree {
   std::vector<ElementId> elements; ///< those below a node follow one another
 };
 
-NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces);
+NodeTree make_node_tree(const LightScene& light);
 
 inline bool is_leaf(const TreeNode& node) { return node.child_count == 0; }
 inline bool is_cluster(const TreeNode& node) { return node.side == none<SideId>; }
