@@ -1,4 +1,4 @@
-// Eq. 1 on the elements, for the part of the light that they reflect:
+// Eq. 1 (pass_one.h) on the elements, for the part of the light that they reflect:
 //
 //   X = rho (D + G) + rho T X,      H = D + G + T X,      B = E + X        W/m^2, by ElementId
 //

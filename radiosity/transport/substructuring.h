@@ -1,6 +1,7 @@
 // Substructuring (Cohen, Greenberg, Immel, Brock 1986): light is sent and received by parts of surfaces that are
 // larger than the elements below them. The parts make a tree of nodes over the elements, of any depth
-// (Hanrahan, Salzman, Aupperle 1991).
+// (Hanrahan, Salzman, Aupperle 1991); hierarchical/node_cut.h chooses those that are solved, and at the vertices of the
+// elements light is gathered from them (field/final_gathering.h).
 //
 // At the top is one node for each side, at the bottom the elements.
 // Above sides that are small faces of something larger are nodes for clusters of them (face_clusters.h).

@@ -231,6 +231,28 @@ std::vector<std::string> include_direction_breaches(const std::vector<SourceFile
   return breaches;
 }
 
+std::vector<std::string> stray_tests(const std::vector<SourceFile>& tree) {
+  namespace fs = std::filesystem;
+  std::multimap<std::pair<std::string, std::string>, std::string> folders; // by library and name
+  for (const SourceFile& file : tree)
+    if (const fs::path path(file.path); path.extension() == ".h")
+      folders.emplace(std::pair(folder_of(file.path), path.stem().string()), path.parent_path().generic_string());
+  std::vector<std::string> strays;
+  for (const SourceFile& file : tree) {
+    constexpr std::string_view root = "tests/", ending = "_test.cpp";
+    if (!file.path.starts_with(root) || !file.path.ends_with(ending))
+      continue;
+    const std::string inside = file.path.substr(root.size());
+    const std::string name = fs::path(inside).filename().string();
+    const auto [begin, end] =
+        folders.equal_range({folder_of(inside), name.substr(0, name.size() - ending.size())});
+    const std::string folder = fs::path(inside).parent_path().generic_string();
+    if (begin != end && std::none_of(begin, end, [&](const auto& at) { return at.second == folder; }))
+      strays.push_back(fmt::format("{}: what it tests is in {}", file.path, begin->second));
+  }
+  return strays;
+}
+
 std::vector<std::string> retired_words(const std::vector<SourceFile>& tree) {
   std::vector<std::string> breaches;
   for (const SourceFile& file : tree) {

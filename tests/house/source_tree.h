@@ -28,6 +28,9 @@ std::vector<std::string> file_shape_breaches(const std::vector<SourceFile>& tree
 /// sources may include. Of tests/ that is one page; cmake/ has none.
 std::vector<std::string> folder_page_breaches(const std::filesystem::path& root, const std::vector<SourceFile>& tree);
 
+/// Tests that are named after a header of the library that they test, and are in another folder of tests/ than that one's.
+std::vector<std::string> stray_tests(const std::vector<SourceFile>& tree);
+
 /// Names that the published ones of docs/glossary.md have replaced.
 std::vector<std::string> retired_words(const std::vector<SourceFile>& tree);
 

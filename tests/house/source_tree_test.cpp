@@ -59,6 +59,16 @@ TEST(SourceTree, FoldersWithoutAPageAreCaught) {
   std::filesystem::remove_all(root);
 }
 
+// The program is tested from outside, in one folder: cli/ is left out.
+TEST(SourceTree, TestsFollowTheTree) {
+  std::vector<SourceFile> libraries = read_source_tree(test::source_dir());
+  std::erase_if(libraries, [](const SourceFile& source) { return source.path.starts_with("cli/"); });
+  EXPECT_THAT(stray_tests(libraries), IsEmpty());
+  EXPECT_THAT(stray_tests({file("mirror/deep/a.h", {}), file("tests/mirror/a_test.cpp", {}), file("tests/mirror/deep/a_test.cpp", {}),
+                           file("tests/physics/a_test.cpp", {}), file("tests/mirror/b_test.cpp", {})}),
+              ElementsAre("tests/mirror/a_test.cpp: what it tests is in mirror/deep"));
+}
+
 TEST(SourceTree, NamesAreThoseOfTheGlossary) {
   EXPECT_THAT(retired_words(read_source_tree(test::source_dir())), IsEmpty());
   EXPECT_THAT(retired_words({file("mirror/a.h", {"// one", "struct KeptRays;"})}),
