@@ -1,4 +1,5 @@
 #include "mirror/light_choice.h"
+#include "tests/mirror/lambert.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"
 
@@ -76,18 +77,6 @@ std::vector<Emitter> glowing_sphere(int rings) {
             emitter_of({at(ring, step), at(ring + 1, step + 1), at(ring + 1, step)}, 3.0));
     }
   return emitters;
-}
-
-double form_factor(const Point3& x, const Direction& normal, const ConvexPolygon& polygon) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < polygon.size; ++k) {
-    const Vec3 a = polygon.vertices[k] - x, b = polygon.vertices[(k + 1) % polygon.size] - x;
-    const Vec3 c = glm::cross(a, b);
-    const double sine = glm::length(c);
-    if (sine > 0.0)
-      sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(normal, c) / sine;
-  }
-  return std::abs(sum) / (2.0 * std::numbers::pi);
 }
 
 double light_of(const Lamps& lamps, const Observer& observer,

@@ -1,4 +1,5 @@
 #include "mirror/virtual_lights.h"
+#include "tests/mirror/lambert.h"
 #include "tests/mirror/glowing_room.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"
@@ -10,19 +11,6 @@
 
 namespace meninas::test {
 namespace {
-
-/// Lambert's formula, written down once more so that these tests stand on their own.
-double form_factor(const Point3& x, const Direction& normal, const ConvexPolygon& polygon) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < polygon.size; ++k) {
-    const Vec3 a = polygon.vertices[k] - x, b = polygon.vertices[(k + 1) % polygon.size] - x;
-    const Vec3 c = glm::cross(a, b);
-    const double sine = glm::length(c);
-    if (sine > 0.0)
-      sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(normal, c) / sine;
-  }
-  return std::abs(sum) / (2.0 * std::numbers::pi);
-}
 
 double seen_light(const GlowingRoom& room, const Point3& x, const Direction& normal) {
   std::vector<VirtualLight> lights;

@@ -3,6 +3,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/field/vertex_places.h"
 #include "scenes/gltf/gltf.h"
+#include "tests/radiosity/hierarchical/plain_room.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
 #include "tests/support/source_dir.h"
@@ -120,14 +121,6 @@ TEST(Hierarchical, AgreesWithRowsInGalleryScenes) {
     EXPECT_LT(a.local, std::hypot(0.5 * link_error, samples.local)) << name;
     EXPECT_LT(a.mean, 4.0 * samples.mean + 0.002) << name;
   }
-}
-
-/// A closed room without furniture, one wall of which glows: the light changes towards its edges.
-Scene plain_room() {
-  Scene scene;
-  const Material wall = diffuse(0.7);
-  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, diffuse(0.5, 1.0), wall, wall});
-  return scene;
 }
 
 // What X bounds falls with X:

@@ -1,6 +1,7 @@
 // The field of a hierarchical mesh: it is what gathering everywhere finds.
 #include "radiosity/light/gather_noise.h"
 #include "scenes/gltf/gltf.h"
+#include "tests/radiosity/hierarchical/plain_room.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
 #include "tests/support/source_dir.h"
@@ -39,14 +40,6 @@ TEST(NodeField, VerticesTakeMoreRaysWhereTheyStandForMore) {
   EXPECT_EQ(ray_multiplier(11'320, 1000), 2);
   EXPECT_EQ(ray_multiplier(63'900, 1000), 2);
   EXPECT_EQ(ray_multiplier(64'100, 1000), 4);
-}
-
-/// A closed room without furniture, one wall of which glows.
-Scene plain_room() {
-  Scene scene;
-  const Material wall = diffuse(0.7);
-  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, diffuse(0.5, 1.0), wall, wall});
-  return scene;
 }
 
 /// Over vertices that are asked for:
