@@ -65,9 +65,9 @@ static bool sees_black(const GatheredRays& gathered) {
 }
 
 /// The clearance of a point, by its view.
-static Clearance clearance_of(bool is_enclosed_here, const LightScene& light, const Receiver& receiver,
+static Clearance clearance_of(bool enclosed, const LightScene& light, const Receiver& receiver,
                       double element_size) {
-  if (is_enclosed_here)
+  if (enclosed)
     return Clearance::enclosed;
   return is_under_something(light, receiver, element_size) ? Clearance::low : Clearance::open;
 }

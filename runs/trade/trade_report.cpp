@@ -56,7 +56,7 @@ Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
             {"stages", stages_json(point.stages)}};
   for (const ParameterChange& turn : point.turns)
     json["turn"] = {
-        {"parameter", turn.parameter}, {"from", turn.from}, {"to", turn.to}, {"parent", turn.parent}};
+        {"knob", turn.parameter}, {"from", turn.from}, {"to", turn.to}, {"parent", turn.parent}};
   return json;
 }
 
@@ -93,7 +93,7 @@ Json json_of(const TradeResult& result) {
     points.push_back(point_json(result, k, std::ranges::find(front, k) != front.end()));
   const std::vector<ParameterWorth> worths = parameter_worths(result);
   for (const ParameterWorth& parameter : worths)
-    parameters.push_back({{"parameter", parameter.turn.parameter},
+    parameters.push_back({{"knob", parameter.turn.parameter},
                      {"from", parameter.turn.from},
                      {"to", parameter.turn.to},
                      {"point", parameter.point},
@@ -121,7 +121,7 @@ Json json_of(const TradeResult& result) {
             {"floor", reference.floor}}},
           {"front", front},
           {"points", std::move(points)},
-          {"parameters", std::move(parameters)},
+          {"knobs", std::move(parameters)},
           {"conclusion", conclusion_of(worths)},
           {"version", program_version()}};
 }

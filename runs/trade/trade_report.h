@@ -43,8 +43,8 @@ std::vector<ParameterWorth> parameter_worths(const TradeResult& result);
 /// {"kind", "name", "seconds", "noise", "floor"}, "front":
 /// [indices], "points": [{"id", "command", "options", "elements", "seconds", "seconds_spread",
 /// "processor_seconds", "error", "error_spread", "runs", "estimate", "front", "turn"?:
-/// {"parameter", "from", "to", "parent"}, "stages": {...}}], "parameters":
-/// [{"parameter", "from", "to", "point", "seconds_ratio", "error_ratio"}], "conclusion", "version"}.
+/// {"knob", "from", "to", "parent"}, "stages": {...}}], "knobs":
+/// [{"knob", "from", "to", "point", "seconds_ratio", "error_ratio"}], "conclusion", "version"}.
 std::string trade_json(const TradeResult& result);
 
 /// A line a point: id, front, seconds, processor_seconds, error, estimate, runs, elements, command.

@@ -38,6 +38,11 @@ TEST_F(Trade, WritesFiguresATableAndAPageThatAgree) {
   const json said = figures();
   EXPECT_EQ(said.at("reference").at("kind"), "path tracer");
   EXPECT_GT(said.at("reference").at("noise"), 0.0);
+  // Who reads the file knows these names: a key keeps its own (docs/versioning.md).
+  for (const char* key : {"points", "front", "knobs", "conclusion", "version"})
+    EXPECT_TRUE(said.contains(key)) << key;
+  for (const json& knob : said.at("knobs"))
+    EXPECT_TRUE(knob.contains("knob"));
   const json& points = said.at("points");
   ASSERT_GE(points.size(), 2U);
   for (const json& point : points) {

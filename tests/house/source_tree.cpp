@@ -75,7 +75,7 @@ constexpr std::array retired = {
     "from_source",      "Cover::",       "VertexState::lit",  "Visibility::alike",
     "light_fresh",      "left_on_leg",   "meet_blocker",      "has_learned",
     "cut_at_shadows",   "shadow_lines",  "world_tail",        "LandingTable",
-    "cells_at_foot",    "Knob",          "knob",              "facets_with_edges",
+    "cells_at_foot",    "KnobTurn",      "TurnedSettings",    "facets_with_edges",
     "reflected_light.h", "lobe_grid",    "shadow_paths.h",    "element_hierarchy.h"};
 
 /// Limits are max_x and min_x: what begins with one of these, in C++ or in JavaScript, is named otherwise.

@@ -64,7 +64,7 @@ TEST(Render, AFieldOutlivesWhoPreparedItsScene) {
     IrradianceField field = solve_pass_one(prepared->light(), pass_one).field;
     const Image before = render(field, camera, settings.render).image;
     prepared.reset();
-    EXPECT_FALSE(watched.expired()) << "the field keeps it";
+    ASSERT_FALSE(watched.expired()) << "the field keeps it";
     EXPECT_EQ(render(field, camera, settings.render).image.pixels, before.pixels);
     field = {};
     EXPECT_TRUE(watched.expired()) << "and nothing else does";

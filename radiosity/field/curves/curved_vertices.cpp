@@ -111,6 +111,11 @@ Receiver received_on_curve(const LightScene& light, const MeshSide& side, const 
   return receiver;
 }
 
+bool is_one_curve(const Receiver& a, const Receiver& b) {
+  static const double min_cosine = std::cos(same_normal_degrees * std::numbers::pi / 180.0);
+  return a.coat == b.coat && !(glm::dot(a.normal, b.normal) < min_cosine);
+}
+
 void receive_on_curves(const LightScene& light, VertexSamples& found) {
   if (std::ranges::none_of(light.scene.triangles, &Triangle::curved))
     return;
@@ -125,7 +130,6 @@ void join_on_curves(const LightScene& light, const VertexSamples& found,
                     std::span<const std::uint8_t> valid, VertexIrradiance& field) {
   if (std::ranges::none_of(light.scene.triangles, &Triangle::curved))
     return;
-  const double least = std::cos(same_normal_degrees * std::numbers::pi / 180.0);
   for (const std::vector<std::size_t>& vertices : places_on_curves(light, found, valid)) {
     if (vertices.size() < 2)
       continue;
@@ -134,8 +138,7 @@ void join_on_curves(const LightScene& light, const VertexSamples& found,
       std::size_t count = 0;
       std::array<glm::vec3, 4> sum{};
       for (const std::size_t other : vertices) {
-        if (glm::dot(found.receivers[v].normal, found.receivers[other].normal) < least ||
-            found.receivers[v].coat != found.receivers[other].coat)
+        if (!is_one_curve(found.receivers[v], found.receivers[other]))
           continue;
         ++count;
         sum[0] += own.irradiance[other];

@@ -22,6 +22,9 @@ std::optional<Direction> given_normal(const LightScene& light, const MeshSide& s
 /// Directions that are nearer than so many degrees are one normal of the file.
 inline constexpr double same_normal_degrees = 3.0;
 
+/// Whether the curve goes on between two receivers at one place: they have one normal, and are below the same coat.
+bool is_one_curve(const Receiver& a, const Receiver& b);
+
 /// A receiver beside a vertex of a side, moved to the curve there; as it is where nothing curves.
 Receiver received_on_curve(const LightScene& light, const MeshSide& side, const Point3& vertex,
                            Receiver receiver);

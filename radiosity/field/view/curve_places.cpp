@@ -4,9 +4,6 @@
 #include "radiosity/field/view/view_receivers.h"
 #include "radiosity/mesh/mesh_cells.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace meninas {
 
 CurvePlaces::CurvePlaces(const LightScene& light, const LatticeCells& cells)
@@ -18,7 +15,6 @@ void CurvePlaces::find_new() {
 }
 
 std::uint32_t CurvePlaces::first_at(std::uint32_t vertex) {
-  static const double min_cosine = std::cos(same_normal_degrees * std::numbers::pi / 180.0);
   const LatticeVertex& own = cells_.vertices()[vertex];
   if (!cells_.is_at_border(own) || cells_.stands_apart(own.element))
     return vertex;
@@ -29,11 +25,10 @@ std::uint32_t CurvePlaces::first_at(std::uint32_t vertex) {
   const auto [begin, end] = at_place_.equal_range(place);
   std::uint32_t first = vertex;
   for (auto other = begin; other != end; ++other)
-    if (other->second.coat == receiver.coat &&
-        glm::dot(other->second.normal, receiver.normal) >= min_cosine)
+    if (is_one_curve(other->second.receiver, receiver))
       first = std::min(first, other->second.vertex);
   if (first == vertex)
-    at_place_.emplace(place, First{vertex, receiver.normal, receiver.coat});
+    at_place_.emplace(place, First{vertex, receiver});
   return first;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "radiosity/field/view/lattice_cells.h"
+#include "radiosity/light/direct_samples.h"
 #include "radiosity/mesh/vertex_welder.h"
 #include "radiosity/scene/light_scene.h"
 
@@ -27,8 +28,7 @@ public:
 private:
   struct First {
     std::uint32_t vertex;
-    Direction normal;
-    MaterialId coat;
+    Receiver receiver;
   };
   std::uint32_t first_at(std::uint32_t vertex);
 
