@@ -1,4 +1,4 @@
-// What a picture is going to take in pass two, before it: seconds and bytes.
+// The cost of a picture in pass two, before it: seconds and bytes.
 //
 //   seconds = pixels x (samples x one camera ray with its diffuse term
 //                       + vertices of the view's field x one hit with direct light)
