@@ -232,7 +232,7 @@ TEST_F(WalkDimmers, ReachWhatBodiesShow) {
       const data = JSON.parse(document.getElementById('data').textContent), tables = await readTables(data), room = readRoom(data, tables);
       const canvas = document.createElement('canvas'), gl = openGpu(canvas);
       [canvas.width, canvas.height] = [64, 64];
-      const painter = makePainter(gl, data, room, []), camera = makeMotion(room, makeRays(room));
+      const painter = makePainter(gl, data, room, [], 16), camera = makeMotion(room, makeRays(room));
       camera.goTo(data.cameras[0]);
       const picture = () => {
         painter.paint(camera.view(1), { mirrors: true, falseColours: false, lines: false, width: 64, height: 64, block: 1, most: 16, facets: 12, exposure: 1 });

@@ -22,17 +22,18 @@ function paintNothing(gl, data) {
     looks: [{ ...data.looks[0], kind: kinds.plain, roughness: 0, lamp: -1 }], lamps: [], skyLamp: -1, sky: null };
   const tables = { position: Int32Array.from([mirror, back].flat(2)), irradiance: new Uint16Array(18), look: new Int32Array(6), triangles: Int32Array.of(0, 1, 2, 3, 4, 5), elementEnds: [1, 2] };
   for (const name of ["place", "colour"]) if (data.tables.some(table => table.name === name)) tables[name] = new Int32Array(24);
-  const room = Object.assign(readRoom(bare, tables), { needs: needsOf(data) }), painter = makePainter(gl, bare, room, []);
+  const room = Object.assign(readRoom(bare, tables), { needs: needsOf(data) }), worlds = 2, painter = makePainter(gl, bare, room, [], worlds);
   painter.paint({ eye: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1], half: 2, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size },
-    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, samples: coarseWay(room.needs).samples, most: 2, exposure: 0 });
+    { mirrors: true, falseColours: false, lines: false, width: 8, height: 8, block: 1, samples: coarseWay(room.needs).samples, most: worlds, exposure: 0 });
   gl.clear(gl.COLOR_BUFFER_BIT);
   gl.flush();
   painter.free();
 }
 
-function makePainter(gl, data, room, textures) {
+/// Frames have at most `maxWorlds` worlds.
+function makePainter(gl, data, room, textures, maxWorlds) {
   const [roomProgram, screenProgram] = makePrograms(gl, programsFor(room.needs, data.transform));
-  const { array, light, stream, buffers } = makeRoomArrays(gl, room, room.lamps.irradiance()), looks = gl.createTexture();
+  const { array, light, stream, buffers } = makeRoomArrays(gl, room, maxWorlds), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
   const { probes, groups } = room, probePictures = makeProbes(gl, probes.length); // its own, when another room is shown
   const black = gl.createTexture();
@@ -64,7 +65,7 @@ function makePainter(gl, data, room, textures) {
         runs.filter(run => run.group === group).forEach(run => addRun(world, run));
         if (g === 0 && world.depth > 0 && room.backs.count > 0)
           for (const run of room.opaque.filter(r => r.section === sections.single)) addRun(world, run, stream.backs);
-        if (g === 0) stream.sky(world);
+        if (g === 0) stream.sky();
         return { group, ...stream.segment() };
       });
       for (const child of world.children.filter(c => c.isBlurred)) {
@@ -76,7 +77,7 @@ function makePainter(gl, data, room, textures) {
     stream.end();
   }
   function addRun(world, run, add = stream.add) {
-    for (const part of run.parts) if (mayShow(world, part)) add(world, part.first, part.count);
+    for (const part of run.parts) if (mayShow(world, part)) add(part.first, part.count);
   }
   /// Panes from far to near, those together that cover nothing of one another on the screen.
   function panesOf(world) {

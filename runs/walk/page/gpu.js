@@ -88,9 +88,9 @@ function normalsOf({ tables, backs }, places) {
 }
 
 /// The vertices of the room, of its black backs, of the sky and of windows (stream.js), and the triangles of a frame.
-/// Returns { array, light, stream, buffers }, light the buffer of their irradiance.
-function makeRoomArrays(gl, room, irradiance) {
-  const { data, tables } = room, array = gl.createVertexArray(), buffers = [], places = placesBeside(room);
+/// A frame has at most `worlds`. Returns { array, light, stream, buffers }, light the buffer for their irradiance.
+function makeRoomArrays(gl, room, worlds) {
+  const { data, tables } = room, array = gl.createVertexArray(), buffers = [], places = placesBeside(room, worlds);
   gl.bindVertexArray(array);
   const add = (place, values, count, type, isShare = false) => {
     const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, places.all * count * values.BYTES_PER_ELEMENT);
@@ -109,14 +109,14 @@ function makeRoomArrays(gl, room, irradiance) {
   const looks = new Uint16Array(places.all);
   looks.set(tables.look);
   looks.fill(looksBeside.back, places.back).fill(looksBeside.sky, places.sky).fill(looksBeside.window, places.window);
-  const positions = add(0, points, 3, gl.FLOAT), light = add(1, irradiance, 3, gl.FLOAT);
+  const positions = add(0, points, 3, gl.FLOAT), light = add(1, new Float32Array(0), 3, gl.FLOAT);
   add(2, normalsOf(room, places), 2, gl.FLOAT);
   if (tables.place) add(3, inUnits(tables.place, 2 ** -16), 4, gl.FLOAT);
   else gl.vertexAttrib4f(3, 0, 0, 0, 0);
   if (tables.colour) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
   add(5, looks, 1, gl.UNSIGNED_SHORT);
   add(6, numbersOf(room), 4, gl.UNSIGNED_SHORT);
-  const stream = makeStream(gl, room, positions);
+  const stream = makeStream(gl, room, places, positions);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, stream.drawn);
   gl.bindVertexArray(null);
   return { array, light, stream, buffers };

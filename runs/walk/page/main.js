@@ -24,6 +24,12 @@ async function readShown(gl, data, change, meanwhile) {
   return { room, textures };
 }
 
+/// How many pixels the picture has: one to a pixel of the screen, at most two along each side; of coarse ones a third.
+function sizeOfPicture(canvas, coarse) {
+  const ratio = Math.min(devicePixelRatio || 1, 2) / (coarse ? 3 : 1);
+  return [Math.max(1, Math.round(canvas.clientWidth * ratio)), Math.max(1, Math.round(canvas.clientHeight * ratio))];
+}
+
 /// Opens the page on its data. `told` may have moved() and rested(), of the camera. Returns what others do with the page:
 ///   keys           by name, what they do; others may be added
 ///   takeRoom(data, shift)  shows another room, or another mesh of it, from where the eye is; its points are those before plus `shift`
@@ -33,10 +39,17 @@ async function readShown(gl, data, change, meanwhile) {
 ///   redraw()       after a change of something beside the camera
 /// `told.tables` may change the tables of a room before it is shown.
 async function openPage(data, told = {}) {
-  const canvas = element("view"), gl = openGpu(canvas), asked = readAddress();
+  const canvas = element("view"), asked = readAddress();
+  const setSize = coarse => {
+    const [width, height] = asked.size || sizeOfPicture(canvas, coarse);
+    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+  };
+  setSize(!asked.shot); // a context that changes its size waits for all that it has been asked for
+  const gl = openGpu(canvas);
   beginPrograms(gl, programsFor(needsOf(data), data.transform));
   const { room, textures } = await readShown(gl, data, told.tables, () => paintNothing(gl, data));
-  let painter = makePainter(gl, data, room, textures);
+  const maxOfFrame = asked.shot ? maxWorldsOfShot : maxWorlds;
+  let painter = makePainter(gl, data, room, textures, maxOfFrame);
   const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const maxWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
@@ -68,16 +81,12 @@ async function openPage(data, told = {}) {
     try { history.replaceState(null, "", `#${place}&exposure=${motion.state.exposure.toFixed(2)}${switches}${lamps}`); } catch { /* a page that may not has no links */ }
   }
 
-  function sizeOfCanvas(coarse) {
-    if (asked.size) return asked.size;
-    const ratio = Math.min(devicePixelRatio || 1, 2) / (coarse ? 3 : 1);
-    return [Math.max(1, Math.round(canvas.clientWidth * ratio)), Math.max(1, Math.round(canvas.clientHeight * ratio))];
-  }
   function paintNow(way, most, coarse = false) {
-    const [width, height] = sizeOfCanvas(coarse), before = performance.now();
+    const before = performance.now();
     let { block } = way;
+    setSize(coarse);
+    const { width, height } = canvas;
     while (block > 1 && (Math.max(width, height) * block > maxWide || width * height * block * block > maxPixels)) block /= 2;
-    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const figures = painter.paint(motion.view(width / height), { ...shows, ...way, width, height, block, most, exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
     return { ...figures, milliseconds: performance.now() - before };
@@ -93,7 +102,7 @@ async function openPage(data, told = {}) {
     else shows.slow = figures.milliseconds > 4 * slowFrame;
     // At rest there is time for more worlds.
     if (!moving && figures.cut && !shows.slow && shows.most < maxWorlds) {
-      shows.most *= 2;
+      shows.most = Math.min(maxWorlds, 2 * shows.most);
       setTimeout(() => askForFrame(false), 0);
     }
     // Then for what curved and rough bodies show.
@@ -189,7 +198,7 @@ async function openPage(data, told = {}) {
       room.data = data;
     };
     become(other, next.room);
-    try { painter = makePainter(gl, data, room, next.textures); } catch (problem) {
+    try { painter = makePainter(gl, data, room, next.textures, maxOfFrame); } catch (problem) {
       become(dataBefore, roomBefore);
       throw problem;
     }

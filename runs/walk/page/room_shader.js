@@ -313,7 +313,8 @@ void main() {
   vec4 texel = colourAt(units.x, onTextures.xy);
   float alpha = first.w * colour.a * texel.a;
   if (second.w >= 0.0 && first.w * colour.a * sharpAt(units.x, onTextures.xy).a < second.w) discard;
-  vec4 seen = isFollowed == 0 ? vec4(0.0) : texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0);
+  // The picture of the mirror's world is the other way round.
+  vec4 seen = isFollowed == 0 ? vec4(0.0) : texelFetch(mirrored, ivec2(int(pictureSize.x) - 1 - int(gl_FragCoord.x), int(gl_FragCoord.y)), 0);
   seen.rgb /= max(seen.a, 0.01); // the mean of what windows cover of the pixel
   vec3 towards = normalize(place - eye), face = normalize(cross(dFdx(place), dFdy(place)));
   float c = min(1.0, abs(dot(face, towards)));

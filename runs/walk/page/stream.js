@@ -3,18 +3,18 @@
 // one another by the graphics card.
 "use strict";
 
-/// Points of windows in a frame. Where they do not fit beside what the worlds to come need, a world's windows are as one.
+/// Points of windows in a frame of so many worlds: each has the windows of one mirror. Where they do not fit beside what the
+/// worlds to come need, a world's windows are as one.
 const maxWindowPoints = 32768, pointsOfOne = 16;
+const windowPointsOf = ({ mirrors }, worlds) => Math.min(maxWindowPoints, pointsOfOne * (mirrors.length ? worlds : 1) * Math.max(1, ...mirrors.map(mirror => mirror.windows.length)));
 
-/// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows. By way of an odd number
-/// of mirrors triangles are seen the other way round, and are there that way, so that fronts are fronts in every world: what
-/// is a front is a part of what software that draws compiles.
-function placesBeside({ tables, backs, mirrors }) {
-  const vertices = tables.points.length / 3, triangles = tables.triangles.length / 3;
+/// Where what is not in the tables is: vertices and triangles of black backs, the sky, and windows.
+function placesBeside(room, worlds) {
+  const { tables, backs } = room, vertices = tables.points.length / 3, triangles = tables.triangles.length / 3;
   const sky = vertices + backs.of.length, window = sky + 8;
-  const rows = triangles + backs.count + 12;
-  return { vertices, back: vertices, sky, window, all: window + maxWindowPoints, backTriangle: triangles, skyTriangle: triangles + backs.count,
-    rows, windowTriangle: mirrors.length ? 2 * rows : rows };
+  const points = windowPointsOf(room, worlds);
+  return { back: vertices, sky, window, windowPoints: points, all: window + points, backTriangle: triangles, skyTriangle: triangles + backs.count,
+    windowTriangle: triangles + backs.count + 12 };
 }
 
 /// The eight corners of a cube, and its squares as two triangles each, their fronts inwards.
@@ -43,42 +43,36 @@ function windowsOnScreen({ camera, windows }, { width, height }) {
   return windows.map(window => hullOf(window.flatMap(x => around(projected(camera, x)))));
 }
 
-/// `positions` is the buffer of the vertices, with places for windows. `drawn` is what the vertex array draws from.
-function makeStream(gl, room, positions) {
-  const { tables, backs } = room, places = placesBeside(room), all = gl.createBuffer(), drawn = gl.createBuffer();
+/// `positions` is the buffer of the vertices at their `places`. `drawn` is what the vertex array draws from.
+function makeStream(gl, { tables, backs }, places, positions) {
+  const all = gl.createBuffer(), drawn = gl.createBuffer();
   const fixed = new Uint32Array(3 * places.windowTriangle);
   fixed.set(tables.triangles);
   for (let k = 0; k < backs.corners.length; ++k) fixed[3 * places.backTriangle + k] = places.back + backs.corners[k];
   cubeTriangles.forEach((corner, k) => { fixed[3 * places.skyTriangle + k] = places.sky + corner; });
-  for (let k = 0, to = 3 * places.rows; to < fixed.length; k += 3, to += 3) {
-    fixed[to] = fixed[k + 1];
-    fixed[to + 1] = fixed[k];
-    fixed[to + 2] = fixed[k + 2];
-  }
   for (const buffer of [drawn, all]) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer); // what they are for is told by this
-  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * maxWindowPoints), gl.STATIC_DRAW);
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * (fixed.length + 3 * places.windowPoints), gl.STATIC_DRAW);
   gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 0, fixed);
   let ranges, count, from, points, fans, capacity = 0;
 
   function begin() { [ranges, count, from, points, fans] = [[], 0, 0, [], []]; }
-  function addRow(first, number) {
+  function add(first, number) {
     const last = ranges[ranges.length - 1];
     if (last && last.first + last.number === first) last.number += number;
     else ranges.push({ first, number });
     count += number;
   }
-  function add(world, first, number) { addRow(world.depth % 2 ? places.rows + first : first, number); }
   /// What is seen of a world, of so many still to come: backs of triangles there, so that they mark the stencil.
   function window(world, size, toCome) {
     let polygons = windowsOnScreen(world, size);
-    const left = maxWindowPoints - points.length / 3 - pointsOfOne * toCome;
+    const left = places.windowPoints - points.length / 3 - pointsOfOne * toCome;
     if (polygons.reduce((sum, p) => sum + p.length, 0) > left) polygons = [hullOf(polygons.flat())];
     if (polygons[0].length > left) polygons = windowsOnScreen({ windows: null }, size);
     for (const polygon of polygons) {
       const base = places.window + points.length / 3, first = fans.length / 3;
       for (const [x, y] of polygon) points.push(x, y, 1);
       for (let k = 2; k < polygon.length; ++k) fans.push(base, base + k, base + k - 1);
-      addRow(places.windowTriangle + first, fans.length / 3 - first);
+      add(places.windowTriangle + first, fans.length / 3 - first);
     }
   }
   /// What has been added since the last one.
@@ -100,6 +94,6 @@ function makeStream(gl, room, positions) {
       to += number;
     }
   }
-  return { begin, window, add, segment, end, drawn, backs: (world, first, number) => add(world, places.backTriangle + first, number),
-    sky: world => add(world, places.skyTriangle, 12), free: () => [all, drawn].forEach(buffer => gl.deleteBuffer(buffer)) };
+  return { begin, window, add, segment, end, drawn, backs: (first, number) => add(places.backTriangle + first, number),
+    sky: () => add(places.skyTriangle, 12), free: () => [all, drawn].forEach(buffer => gl.deleteBuffer(buffer)) };
 }

@@ -1,8 +1,8 @@
 // Vectors as arrays of three numbers, planes as [n, d] for n.x = d, cameras by their frame.
 //
 // A camera is { eye, right, up, forward, half, aspect, near, far }, half the tangent of half the
-// vertical angle. Its image in a mirror is the frame reflected: its picture of the room is what is
-// seen by way of the mirror, with fronts turning the other way.
+// vertical angle. Its image in a mirror is the frame reflected, with right and left exchanged: its picture
+// is what is seen by way of the mirror, the other way round, and fronts turn as they do in the room.
 "use strict";
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -20,7 +20,7 @@ const reflected = (x, n, d) => plus(x, n, -2 * (dot(n, x) - d));
 function cameraBehind(camera, mirror) {
   const turned = v => reflected(v, mirror.normal, 0);
   return { ...camera, eye: reflected(camera.eye, mirror.normal, mirror.offset),
-    right: turned(camera.right), up: turned(camera.up), forward: turned(camera.forward) };
+    right: times(turned(camera.right), -1), up: turned(camera.up), forward: turned(camera.forward) };
 }
 
 /// From the room to clip space, by columns.

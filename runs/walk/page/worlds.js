@@ -43,7 +43,7 @@ function reflectanceSeen(mirror, eye, windows) {
   return Math.max(mirror.reflectance, 0.04 + 0.96 * (1 - least) ** 5);
 }
 
-/// The smallest rectangle of the picture around the windows: left, bottom, right, top, 0 to 1.
+/// The smallest rectangle of a camera's picture around the windows: left, bottom, right, top, 0 to 1.
 function rectangleOf(camera, windows) {
   const rectangle = [1, 1, 0, 0];
   for (const x of windows.flat())
@@ -115,7 +115,7 @@ function visibleWorlds(room, camera, most, followed, blurs) {
       const seen = isBlurred ? [cornersOf(image)] : windows;
       const child = { camera: image, mirror, isBlurred, windows: isBlurred ? null : windows, cones: seen.map(w => conePlanes(image.eye, w)),
         throughput, depth: world.depth + 1, asides: world.asides + (mirror.kind === "pane" || isBlurred ? 1 : 0),
-        rectangle: isBlurred ? [0, 0, 1, 1] : rectangleOf(world.camera, windows), children: [] };
+        rectangle: isBlurred ? [0, 0, 1, 1] : rectangleOf(image, windows), children: [] };
       world.children.push(child);
       worlds.push(child);
     }
