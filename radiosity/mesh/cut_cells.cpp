@@ -15,7 +15,13 @@ namespace meninas {
 
 namespace {
 
-constexpr double min_reach = 0.25; ///< of a leaf, of the runs that cut it
+constexpr double min_reach = 0.25;   ///< of a leaf, of the runs that cut it
+constexpr double min_region = 0.25;  ///< of the edge of an element of the size asked for
+constexpr double always_regions = 4; ///< so many has a leaf in which two walls cross
+
+struct CellInRoot {
+  std::uint32_t number = 0, root = 0; ///< cells
+};
 
 /// A leaf in the plane of its side.
 struct PlaneCell {
@@ -27,8 +33,10 @@ struct PlaneCell {
   std::size_t next(std::size_t c) const { return (c + 1) % corners.size(); }
 };
 
-PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
-                     std::uint32_t root, const PlanePlace& place) {
+/// With the runs that are at least `reach` times as long as the leaf is wide.
+PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, const CellInRoot& in,
+                     const PlanePlace& place, double reach) {
+  const MeshCell& cell = mesh.cells[in.number];
   constexpr std::array<Vec2, 4> quad{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
   constexpr std::array<Vec2, 3> triangle{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
   const MeshSide& side = mesh.sides[index(cell.side)];
@@ -43,10 +51,10 @@ PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, cons
   result.grain = 2e-4 * result.size + 8.0 * surfaces.surfaces[index(surface)].tolerance;
   result.step = 0.1 * mesh.element_size;
   const ContactSegments& contacts = *mesh.contacts;
-  for (std::uint32_t k = contacts.begin[root]; k < contacts.begin[root + 1]; ++k) {
+  for (std::uint32_t k = contacts.begin[in.root]; k < contacts.begin[in.root + 1]; ++k) {
     const ContactSegment& segment = contacts.segments[contacts.in_cell[k]];
     Segment2 inside = segment.at;
-    if (segment.reach >= min_reach * result.size && clip_to(outline, result.grain, inside))
+    if (segment.reach >= reach * result.size && clip_to(outline, result.grain, inside))
       result.segments.push_back(segment.at);
   }
   return result;
@@ -269,28 +277,42 @@ void for_each_leaf(const ElementMesh& mesh, std::uint32_t number, std::uint32_t 
 }
 
 struct CutLeaf {
-  std::uint32_t number = 0, root = 0; ///< cells
+  CellInRoot in;
   CutCell cell;
   std::vector<CellLine> lines; ///< counted from 0
 };
 
-/// Appends the leaf, unless nothing touches it.
-void cut_leaf(const ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
-              std::uint32_t root, VertexGroups& groups, std::vector<CutLeaf>& leaves) {
-  const MeshCell& cell = mesh.cells[number];
-  const MeshSide& side = mesh.sides[index(cell.side)];
-  const PlanePlace place(surfaces.patches[index(side.patch)], side);
-  const PlaneCell flat = plane_cell(mesh, surfaces, cell, root, place);
-  if (flat.segments.empty())
-    return;
+CutPolygon cut_along(const PlaneCell& flat) {
   std::vector<Vec2> outline = flat.corners;
   if (area_of(outline) < 0.0)
     std::ranges::reverse(outline);
-  const CutPolygon cut = cut_polygon(outline, flat.segments, flat.grain);
+  return cut_polygon(outline, flat.segments, flat.grain);
+}
+
+/// Regions that are as large as light needs: many small things that stand together would make many times more.
+double max_regions(const PlaneCell& flat, const MeshSide& side) {
+  const double in_regions = flat.size / (min_region * side.element_size);
+  return std::max(always_regions, in_regions * in_regions);
+}
+
+/// Appends the leaf, unless nothing touches it.
+void cut_leaf(const ElementMesh& mesh, const SurfaceModel& surfaces, const CellInRoot& in,
+              VertexGroups& groups, std::vector<CutLeaf>& leaves) {
+  const MeshCell& cell = mesh.cells[in.number];
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const PlanePlace place(surfaces.patches[index(side.patch)], side);
+  PlaneCell flat = plane_cell(mesh, surfaces, in, place, min_reach);
+  CutPolygon cut = cut_along(flat);
+  for (double reach = 2.0 * min_reach; cut.regions > max_regions(flat, side); reach *= 2.0) {
+    flat = plane_cell(mesh, surfaces, in, place, reach);
+    cut = cut_along(flat);
+  }
+  if (flat.segments.empty())
+    return;
   std::vector<OpenEdge> edges;
   for (std::size_t k = 0; k < flat.corners.size(); ++k)
     edges.push_back(open_edge(flat, k));
-  CutLeaf leaf{number, root, {}, {}};
+  CutLeaf leaf{in, {}, {}};
   for (std::size_t k = 0; k < edges.size(); ++k)
     if (edges[k].walled)
       leaf.cell.walled_edges |= static_cast<std::uint8_t>(1U << k);
@@ -334,7 +356,7 @@ std::vector<CutLeaf> cut_leaves_of(const ElementMesh& mesh, const SurfaceModel& 
   VertexGroups groups(vertex_grain(mesh, surfaces));
   for (const std::uint32_t root : roots)
     for_each_leaf(mesh, root, root, [&](std::uint32_t number, std::uint32_t of) {
-      cut_leaf(mesh, surfaces, number, of, groups, leaves);
+      cut_leaf(mesh, surfaces, {number, of}, groups, leaves);
     });
   const std::vector<std::uint32_t> group = groups.groups();
   for (CutLeaf& leaf : leaves)
@@ -355,7 +377,7 @@ void append(CutLeaf& leaf, CutCells& cuts) {
       next += (next & CellLine::region) != 0 ? 0 : first;
     cuts.lines.push_back(line);
   }
-  cuts.of_cell[leaf.number] = static_cast<std::uint32_t>(cuts.cells.size());
+  cuts.of_cell[leaf.in.number] = static_cast<std::uint32_t>(cuts.cells.size());
   cuts.cells.push_back(std::move(leaf.cell));
 }
 
@@ -376,7 +398,7 @@ CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   for (auto& leaves : of_side)
     for (CutLeaf& leaf : leaves)
       in_order.push_back(&leaf);
-  std::ranges::stable_sort(in_order, {}, &CutLeaf::root);
+  std::ranges::stable_sort(in_order, {}, [](const CutLeaf* leaf) { return leaf->in.root; });
   for (CutLeaf* leaf : in_order)
     append(*leaf, cuts);
   return cuts;

@@ -5,7 +5,12 @@
 //
 //   reach >= sqrt(A_leaf) / 4      (metres):
 //
-// leaves with smaller feet are left whole, and rays find what stands on them (contact_mask.h). Every region
+// leaves with smaller feet are left whole, and rays find what stands on them (contact_mask.h). Where many things that
+// stand together would make more regions than light needs, longer runs alone cut:
+//
+//   regions <= max(4, A_leaf / (s / 4)^2),     s the size asked of elements there.
+//
+// Every region
 // is an element. (Cutting along D0 edges: Heckbert 1992; Lischinski, Tampieri, Greenberg 1992.)
 //
 // A region keeps the corners of its leaf, between which light is interpolated as in any element.

@@ -76,15 +76,13 @@ void bicgstab(const LinearSystem<Value>& system, std::vector<Value>& x,
   record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
   while (!finished(convergence)) {
     const double before = worst(convergence.error_bounds.back());
-    bool first = true;
+    int steps = -1; // the run begins with the iterate that is recorded already
     bicgstab_run<Value>(system, x, [&](const Value& residual, const Value& size) {
-      // The run begins with the iterate that is recorded already.
-      if (!first) {
+      if (++steps > 0) {
         ++convergence.iterations;
         record(convergence, residual, size);
       }
-      first = false;
-      return unfinished_channels(convergence);
+      return steps < max_steps_of_run ? unfinished_channels(convergence) : Value(0.0);
     });
 
     record_again(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));

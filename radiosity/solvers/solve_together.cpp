@@ -1,6 +1,7 @@
 #include "radiosity/solvers/solve_together.h"
 
 #include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/solvers.h"
 
 #include <Eigen/Core>
 
@@ -151,7 +152,7 @@ LightByLamp solve_together(const Transport& transport, const LightByLamp& source
     const Matrix before = system.source - x + reflected(system, x);
     if (!(goal.missed(before, x) != 0.0).any())
       break;
-    left -= std::max(1, run(system, goal, left, x));
+    left -= std::max(1, run(system, goal, std::min(left, max_steps_of_run), x));
     const Matrix after = system.source - x + reflected(system, x);
     constexpr double progress = 0.5; // a run that leaves more than this share everywhere is the last
     if (!(norms(after) <= progress * norms(before) && norms(before) > 0.0).any())

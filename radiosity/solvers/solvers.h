@@ -33,6 +33,9 @@ template <typename Value>
 void bicgstab_run(const LinearSystem<Value>& system, std::vector<Value>& x,
                   const Unfinished<Value>& unfinished);
 
+/// Steps of one run: recurrences that stand still, as in rooms that hardly absorb, are begun anew or given up.
+inline constexpr int max_steps_of_run = 200;
+
 /// Runs of BiCGStab, begun anew from the true residual until that suffices or falls no more.
 template <typename Value>
 void bicgstab(const LinearSystem<Value>& system, std::vector<Value>& x,

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meninas::test {
@@ -99,6 +100,51 @@ void expect_dark(const BothSides& found) {
   constexpr double none_but_rounding = 1e-4;
   EXPECT_LT(found.dark, none_but_rounding * found.lit);
   EXPECT_LT(found.dark_field, none_but_rounding * found.lit);
+}
+
+/// Upright sheets on a floor of one metre, each from one point to another of it.
+struct Sheet {
+  Vec2 from, to;
+};
+std::size_t elements_of_floor_under(const std::vector<Sheet>& sheets) {
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
+  add_polygon(scene, "lamp", {{0, 2, 0}, {1, 2, 0}, {1, 2, 1}, {0, 2, 1}}, diffuse(0.0, 1.0));
+  for (const auto& [a, b] : sheets)
+    add_polygon(scene, "sheet", {{a.x, 0, a.y}, {b.x, 0, b.y}, {b.x, 0.2, b.y}, {a.x, 0.2, a.y}},
+                double_sided(diffuse(0.5)));
+  const auto l = lit(scene, {.element_size = 1.0});
+  return static_cast<std::size_t>(
+      std::ranges::count_if(l->mesh.side_of_element, [&](SideId side) {
+        const MeshSide& at = l->mesh.sides[index(side)];
+        return at.normal.y > 0.9;
+      }));
+}
+
+// Regions are no smaller than light needs: a quarter of an element's edge. A grid of nine sheets either way makes a hundred.
+TEST(ContactSegments, ManyThingsThatStandTogetherMakeFewRegions) {
+  std::vector<Sheet> grid;
+  for (int k = 1; k < 10; ++k) {
+    grid.push_back({{0.1 * k, 0.0}, {0.1 * k, 1.0}});
+    grid.push_back({{0.0, 0.1 * k}, {1.0, 0.1 * k}});
+  }
+  EXPECT_LE(elements_of_floor_under(grid), 16);
+  EXPECT_EQ(elements_of_floor_under({{{0.5, 0.0}, {0.5, 1.0}}, {{0.0, 0.5}, {1.0, 0.5}}}), 4)
+      << "two walls that cross part all four corners";
+}
+
+// A wall goes on parting what is beside it where small things stand around it.
+TEST(ContactSegments, AWallAmongManySmallThingsCutsTheFloor) {
+  std::vector<Sheet> sheets;
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < 3; ++k)
+      sheets.push_back({{0.06 + 0.12 * i, 0.02 + 0.33 * k}, {0.06 + 0.12 * i, 0.3 + 0.33 * k}});
+  const std::size_t small = elements_of_floor_under(sheets);
+  EXPECT_LE(small, 16);
+  sheets.push_back({{0.48, 0.0}, {0.48, 1.0}});
+  const std::size_t with_wall = elements_of_floor_under(sheets);
+  EXPECT_GE(with_wall, 2);
+  EXPECT_LE(with_wall, 16);
 }
 
 TEST(ContactLeaks, NoLightPassesUnderWallsOfAnyThickness) {

@@ -314,6 +314,28 @@ TEST(KrylovSolver, IterationsGrowSlowlyTowardsReflectanceOne) {
   EXPECT_LE(iterations.back(), 3 * iterations.front());
 }
 
+// Light that goes from one unknown to the next, around a ring of 30,000: a step finds two more of them, and after 10,000
+// steps, the most that are allowed, most would still be dark. What stands still ends.
+TEST(KrylovSolver, ARunThatStandsStillEnds) {
+  constexpr std::uint32_t size = 30'000;
+  System ring;
+  ring.transport.size = size;
+  ring.transport.bands = 1;
+  ring.transport.row_begin.push_back(0);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    ring.transport.columns.push_back((i + 1) % size);
+    ring.transport.weights.push_back(1.0F);
+    ring.transport.row_begin.push_back(i + 1);
+  }
+  ring.source.assign(size, Rgb(0.0));
+  ring.source[0] = Rgb(1.0);
+  ring.reflectance.assign(size, Rgb(0.9999));
+  const SolverResult result =
+      solve(ring.transport, ring.source, ring.reflectance, {SolverMethod::bicgstab, 1e-4});
+  EXPECT_FALSE(result.converged);
+  EXPECT_LT(result.iterations, 1000);
+}
+
 TEST(DirectSolver, LargeSystemsAreRefused) {
   EXPECT_NO_THROW(check_size(SolverMethod::direct, max_direct_unknowns));
   EXPECT_THROW(check_size(SolverMethod::direct, max_direct_unknowns + 1), UsageError);
