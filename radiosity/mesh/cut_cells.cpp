@@ -25,7 +25,7 @@ struct CellInRoot {
 
 /// A leaf in the plane of its side.
 struct PlaneCell {
-  std::vector<Vec2> corners; ///< by number
+  std::vector<Vec2> corners, outline; ///< by number, and counter-clockwise
   std::vector<Segment2> segments;
   double size = 0.0, grain = 0.0;
   double step = 0.0; ///< the same for all leaves of the surface
@@ -43,10 +43,10 @@ PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, cons
   PlaneCell result;
   for (const Vec2 st : side.triangle ? std::span<const Vec2>(triangle) : std::span<const Vec2>(quad))
     result.corners.push_back(place(point_in(mesh, surfaces, cell, st)));
-  std::vector<Vec2> outline = result.corners;
-  if (area_of(outline) < 0.0)
-    std::ranges::reverse(outline);
-  result.size = std::sqrt(area_of(outline));
+  result.outline = result.corners;
+  if (area_of(result.outline) < 0.0)
+    std::ranges::reverse(result.outline);
+  result.size = std::sqrt(area_of(result.outline));
   const SurfaceId surface = surfaces.patches[index(side.patch)].surface;
   result.grain = 2e-4 * result.size + 8.0 * surfaces.surfaces[index(surface)].tolerance;
   result.step = 0.1 * mesh.element_size;
@@ -54,7 +54,7 @@ PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, cons
   for (std::uint32_t k = contacts.begin[in.root]; k < contacts.begin[in.root + 1]; ++k) {
     const ContactSegment& segment = contacts.segments[contacts.in_cell[k]];
     Segment2 inside = segment.at;
-    if (segment.reach >= reach * result.size && clip_to(outline, result.grain, inside))
+    if (segment.reach >= reach * result.size && clip_to(result.outline, result.grain, inside))
       result.segments.push_back(segment.at);
   }
   return result;
@@ -282,13 +282,6 @@ struct CutLeaf {
   std::vector<CellLine> lines; ///< counted from 0
 };
 
-CutPolygon cut_along(const PlaneCell& flat) {
-  std::vector<Vec2> outline = flat.corners;
-  if (area_of(outline) < 0.0)
-    std::ranges::reverse(outline);
-  return cut_polygon(outline, flat.segments, flat.grain);
-}
-
 /// Regions that are as large as light needs: many small things that stand together would make many times more.
 double max_regions(const PlaneCell& flat, const MeshSide& side) {
   const double in_regions = flat.size / (min_region * side.element_size);
@@ -302,10 +295,10 @@ void cut_leaf(const ElementMesh& mesh, const SurfaceModel& surfaces, const CellI
   const MeshSide& side = mesh.sides[index(cell.side)];
   const PlanePlace place(surfaces.patches[index(side.patch)], side);
   PlaneCell flat = plane_cell(mesh, surfaces, in, place, min_reach);
-  CutPolygon cut = cut_along(flat);
+  CutPolygon cut = cut_polygon(flat.outline, flat.segments, flat.grain);
   for (double reach = 2.0 * min_reach; cut.regions > max_regions(flat, side); reach *= 2.0) {
     flat = plane_cell(mesh, surfaces, in, place, reach);
-    cut = cut_along(flat);
+    cut = cut_polygon(flat.outline, flat.segments, flat.grain);
   }
   if (flat.segments.empty())
     return;
