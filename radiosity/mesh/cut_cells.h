@@ -10,8 +10,7 @@
 //
 //   regions <= max(4, A_leaf / (s / 4)^2),     s the size asked of elements there.
 //
-// Every region
-// is an element. (Cutting along D0 edges: Heckbert 1992; Lischinski, Tampieri, Greenberg 1992.)
+// Every region is an element. (Cutting along D0 edges: Heckbert 1992; Lischinski, Tampieri, Greenberg 1992.)
 //
 // A region keeps the corners of its leaf, between which light is interpolated as in any element.
 // If a corner of the leaf lies in the region and nothing stands there, the common vertex is used.
