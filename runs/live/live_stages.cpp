@@ -123,10 +123,9 @@ public:
   void begin() {
     if (!stage_.steps.paused())
       return;
-    stage_.board.change_status([&](LiveStatus& status) { status.stage = "dark"; });
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
-    // A room of its own: the exposure of the lit one is another.
-    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    // A room of its own: the exposure of the lit one is another. Whoever hears the stage can ask for this room at once.
+    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0), [](LiveStatus& status) { status.stage = "dark"; });
     wait();
   }
   void look(const PassOneSoFar& state, const char* steps) {

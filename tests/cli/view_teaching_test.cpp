@@ -61,6 +61,7 @@ TEST_F(ViewTeaching, WhatIsNoElementIsRefusedInOneLine) {
   const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
   const json dark = view.status_when([](const json& status) { return status.at("stage") == "dark"; });
   ASSERT_TRUE(dark.is_object());
+  ASSERT_GT(dark.at("room"), 0) << "a stage is not told before its room is there";
   const std::string room = "factors?room=" + dark.at("room").dump();
   EXPECT_EQ(view.get(room + "&element=3").status, 200) << "in the dark as well";
   const auto expect_refused = [&](const std::string& path, int status) {
