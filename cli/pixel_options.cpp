@@ -175,8 +175,9 @@ void add_pixel_options(Options& command, RunSettings& settings, const std::strin
         settings.filter = parse_choice("--filter", text, choices_of(pixel_filters));
       });
   add("--pixel-error", "X",
-      "adaptive sampling: up to --samples where a pixel's error exceeds X of the pixel or of the "
-      "picture's mean [--samples everywhere]",
+      fmt::format("adaptive sampling: up to --samples where a pixel's error exceeds X of the pixel or of the "
+                  "picture's mean [normal {}, fine {}; draft, or with --samples alone: --samples everywhere]",
+                  preset_of(Quality::normal).pixel_error, preset_of(Quality::fine).pixel_error),
       [&](const std::string& text) {
         settings.pixel_error = parse_number("--pixel-error", text, Sign::positive);
       });

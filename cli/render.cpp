@@ -114,8 +114,9 @@ void add_picture_options(Options& command, RenderOptions& options) {
                    options.common.settings.lamp_factors);
   add("--samples", "N",
       fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
-                  "[draft {}, normal {}, fine {}; no limit]",
-                  preset_of(Quality::draft).samples, preset_of(Quality::normal).samples,
+                  "[draft {}, normal {} to {}, fine {} to {}; no limit]",
+                  preset_of(Quality::draft).samples, preset_of(Quality::normal).min_samples,
+                  preset_of(Quality::normal).samples, preset_of(Quality::fine).min_samples,
                   preset_of(Quality::fine).samples),
       [&](const std::string& text) {
         options.common.settings.samples =

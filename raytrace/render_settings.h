@@ -52,6 +52,7 @@ struct RenderSettings {
   /// Above 0: no more samples than it takes for pixels to be right
   /// to this share of themselves or of the mean (sample_choice.h).
   double pixel_error = 0.0;
+  int min_samples = 4; ///< that each pixel takes then
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
   std::vector<Feature> features;      ///< layers after those
   DiffuseSettings diffuse;

@@ -8,13 +8,16 @@ RenderQuality render_quality(Quality quality) {
   switch (quality) {
   case Quality::draft:
     return {.samples = 16,
+            .min_samples = 16,
             .hit_shadow_rays = 8,
             .pixel_penumbra_rays = 256,
             .vertex_penumbra_rays = 64,
             .cell_tolerance = 0.04,
             .finest_cell = 0.2};
   case Quality::normal:
-    return {.samples = 16,
+    return {.samples = 64,
+            .min_samples = 16,
+            .pixel_error = 0.05,
             .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
             .pixel_penumbra_rays = 1024,
@@ -22,7 +25,9 @@ RenderQuality render_quality(Quality quality) {
             .cell_tolerance = 0.02,
             .finest_cell = 0.2};
   case Quality::fine:
-    return {.samples = 64,
+    return {.samples = 256,
+            .min_samples = 64,
+            .pixel_error = 0.02,
             .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
             .pixel_penumbra_rays = 1024,
@@ -45,14 +50,30 @@ DiffuseTerm diffuse_term(const TwoPassChoice& choice, RenderMode mode) {
                                                            : DiffuseTerm::interpolated);
 }
 
-/// A pixel's rays are shared out among its samples;
-/// where sampling is adaptive, most pixels have few.
+/// Adaptive where the user asks for it, or leaves the samples to the quality.
+static void choose_samples(const TwoPassChoice& choice, RenderSettings& render) {
+  const RenderQuality quality = render_quality(choice.quality);
+  render.samples = power_of_two(choice.samples.value_or(quality.samples));
+  if (choice.pixel_error) {
+    render.pixel_error = *choice.pixel_error;
+  } else if (!choice.samples) {
+    render.pixel_error = quality.pixel_error;
+    render.min_samples = quality.min_samples;
+  }
+}
+
+/// The samples of most pixels: where sampling is adaptive, few.
+static int usual_samples(const TwoPassChoice& choice, const RenderSettings& render) {
+  constexpr int max_usual = 32;
+  if (choice.pixel_error)
+    return std::min(render.samples, max_usual);
+  return render.pixel_error > 0.0 ? render.min_samples : render.samples;
+}
+
+/// A pixel's rays are shared out among its samples.
 static DiffuseSettings diffuse_settings(const TwoPassChoice& choice, DiffuseTerm term,
                                         const FormFactorSettings& form_factors, int samples) {
   constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
-  constexpr int max_shared = 32;
-  if (choice.pixel_error)
-    samples = std::min(samples, max_shared);
   const RenderQuality quality = render_quality(choice.quality);
   DiffuseSettings result;
   result.term = term;
@@ -76,15 +97,14 @@ TwoPassSettings two_pass_settings(const TwoPassChoice& choice, RenderMode mode) 
   result.pass_one = pass_one_settings(choice);
   RenderSettings& render = result.render;
   render.mode = mode;
-  render.samples = power_of_two(choice.samples.value_or(render_quality(choice.quality).samples));
+  choose_samples(choice, render);
   render.seed = choice.seed;
   render.display = choice.display;
   render.layers = choice.layers;
   render.features = choice.features;
   render.filter = choice.filter;
-  render.pixel_error = choice.pixel_error.value_or(0.0);
   render.glossy_samples = choice.glossy_samples.value_or(render.glossy_samples);
-  render.diffuse = diffuse_settings(choice, term, result.pass_one.form_factors, render.samples);
+  render.diffuse = diffuse_settings(choice, term, result.pass_one.form_factors, usual_samples(choice, render));
   // A cap on mirrors holds for what the camera sees as for light.
   render.max_bounces = choice.mirror_depth.value_or(render.max_bounces);
   return result;

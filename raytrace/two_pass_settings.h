@@ -17,7 +17,9 @@ struct TwoPassSettings {
 
 /// The numbers of pass two that a quality stands for.
 struct RenderQuality {
-  int samples = 0;                                 ///< camera rays per pixel
+  int samples = 0;          ///< camera rays per pixel, at most
+  int min_samples = 0;      ///< that each pixel takes
+  double pixel_error = 0.0; ///< beyond which it takes more (raytrace/pixels/sample_choice.h)
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   int hit_shadow_rays = 0; ///< from a hit to an emitter, where light is computed there
   int pixel_penumbra_rays =
@@ -30,7 +32,7 @@ RenderQuality render_quality(Quality quality);
 
 /// A user's choices for both passes; values that are not set follow from the quality.
 struct TwoPassChoice : PassOneChoice {
-  std::optional<int> samples;            ///< rounded up to a power of two
+  std::optional<int> samples;            ///< rounded up to a power of two; of every pixel, without `pixel_error`
   std::optional<DiffuseTerm> diffuse;    ///< of a hybrid picture
   WithLayers layers = WithLayers::no;    ///< of light, of a hybrid picture or a reference
   std::vector<Feature> features;         ///< layers of the scene, not of a reference

@@ -3,6 +3,7 @@
 #include "image/display.h"
 #include "image/image_file.h"
 #include "image/whole_file.h"
+#include "raytrace/pixels/sample_choice.h"
 #include "runs/report/compare_report.h"
 #include "runs/report/page.h"
 #include "runs/report/picture_units.h"
@@ -65,11 +66,16 @@ void write_modes(const fs::path& folder, const Comparison& comparison) {
   }
 }
 
+std::string samples_of(const RenderSettings& render) {
+  const int least = first_samples(render).count;
+  return least < render.samples ? fmt::format("{} to {}", least, render.samples) : fmt::format("{}", least);
+}
+
 std::vector<std::pair<std::string, std::string>> settings_of(const TwoPassSettings& settings,
                                                              const RunFigures& figures) {
   return {{"elements", fmt::format("{}", figures.elements)},
           {"form-factor rays per element", fmt::format("{}", settings.pass_one.form_factors.rays)},
-          {"camera rays per pixel", fmt::format("{}", settings.render.samples)},
+          {"camera rays per pixel", samples_of(settings.render)},
           {"mirrors", fmt::format("{}", figures.mirrors)},
           {"mirror worlds", fmt::format("{}", figures.mirror_worlds)},
           {"energy imbalance", fmt::format("{:.2g}", figures.energy.imbalance)},

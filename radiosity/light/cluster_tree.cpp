@@ -128,23 +128,23 @@ struct Builder {
 
 /// Clusters of one plane that face one way; those of no plane class stand alone.
 std::vector<std::vector<std::uint32_t>> by_plane(std::span<const Emitter> clusters) {
-  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<std::vector<std::uint32_t>> planes;
   std::map<PlaneId, std::vector<std::size_t>> of_class;
   for (std::uint32_t c = 0; c < clusters.size(); ++c) {
     auto& known = of_class[clusters[c].plane_class];
     const auto alike = std::ranges::find_if(known, [&](std::size_t g) {
       return clusters[c].plane_class != none<PlaneId> &&
-             clusters[groups[g][0]].coat == clusters[c].coat &&
-             glm::dot(clusters[groups[g][0]].plane.normal, clusters[c].plane.normal) > 0.0;
+             clusters[planes[g][0]].coat == clusters[c].coat &&
+             glm::dot(clusters[planes[g][0]].plane.normal, clusters[c].plane.normal) > 0.0;
     });
     if (alike != known.end()) {
-      groups[*alike].push_back(c);
+      planes[*alike].push_back(c);
       continue;
     }
-    known.push_back(groups.size());
-    groups.push_back({c});
+    known.push_back(planes.size());
+    planes.push_back({c});
   }
-  return groups;
+  return planes;
 }
 
 } // namespace

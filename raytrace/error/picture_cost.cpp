@@ -1,6 +1,7 @@
 #include "raytrace/error/picture_cost.h"
 
 #include "raytrace/error/probes.h"
+#include "raytrace/pixels/sample_choice.h"
 #include "raytrace/views/view_light.h"
 
 namespace meninas {
@@ -13,7 +14,7 @@ double expected_render_seconds(const std::shared_ptr<const LightScene>& light, c
     seconds = pixels * vertices_of_a_pixel * camera_ray_seconds(light, camera, settings);
     settings.diffuse.term = DiffuseTerm::interpolated; // between the vertices of the view's field
   }
-  return seconds + pixels * settings.samples * camera_ray_seconds(light, camera, settings);
+  return seconds + pixels * first_samples(settings).count * camera_ray_seconds(light, camera, settings);
 }
 
 double expected_picture_bytes(double pixels, double planes, DiffuseTerm term) {

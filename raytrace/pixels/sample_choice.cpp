@@ -42,9 +42,9 @@ glm::vec3 squares_around(const Image& image, int x, int y) {
 } // namespace
 
 SampleRange first_samples(const RenderSettings& settings) {
-  constexpr int fewest = 4, part = growth * growth * growth;
+  constexpr int part = growth * growth * growth;
   const int all = std::max(settings.samples, 1);
-  return {0, settings.pixel_error > 0.0 ? std::min(all, std::max(fewest, all / part)) : all};
+  return {0, settings.pixel_error > 0.0 ? std::min(all, std::max(settings.min_samples, all / part)) : all};
 }
 
 PixelMask uncertain_pixels(const Image& picture, double pixel_error) {

@@ -1,7 +1,7 @@
 // Adaptive pixel sampling:
 // which pixels take how many samples (in rounds, after Kirk and Arvo 1991).
 //
-// Every pixel takes its first samples, at least four; every further round makes them four times
+// Every pixel takes its first samples, `min_samples` or more; every further round makes them four times
 // as many, up to `samples` in at most four rounds, in the pixels that still look to be off by more
 // than `pixel_error` of their radiance or of the picture's mean radiance, whichever is less:
 //

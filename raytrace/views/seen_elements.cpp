@@ -80,7 +80,7 @@ void mark(const Met& met, const Leg& leg, SeenMarks& seen) {
   set(field_point(met.light.landing.elements, met.face.side, uv).element);
   if (const auto behind =
           place_behind(met.light, SideId{met.face.side}, triangle, met.hit.barycentric))
-    set(behind->element);
+    set(field_point(met.light.landing.elements, behind->side, behind->uv).element);
 }
 
 /// The lobes of the surface, one direction each, by which it sends light to where the leg came from.

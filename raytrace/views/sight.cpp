@@ -57,8 +57,8 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     if (face.side != FaceRecord::nothing) {
       sight.side = face.side;
       const glm::vec2 b(hit->barycentric);
-      sight.place = field_point(light.landing.elements, face.side,
-                                hit_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
+      sight.uv = hit_uv(face, light.surfaces, index(hit->triangle), b.x, b.y);
+      sight.place = field_point(light.landing.elements, face.side, sight.uv);
     }
     const SightStep to = sight_step(light, face, *hit);
     if (to == SightStep::end || (to == SightStep::mirror && sight.mirrors >= max_mirrors))
@@ -79,7 +79,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
   }
 }
 
-std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, TriangleId triangle,
+std::optional<PatchPlace> place_behind(const LightScene& light, SideId side, TriangleId triangle,
                                        Vec2 barycentric) {
   const SideId behind = side_behind(light.mesh, side);
   if (behind == none<SideId>)
@@ -87,9 +87,8 @@ std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, Tri
   const std::size_t front = 2 * std::size_t{index(triangle)};
   const std::size_t face = light.landing.faces[front].side == index(behind) ? front : front + 1;
   const glm::vec2 b(barycentric);
-  return field_point(
-      light.landing.elements, index(behind),
-      hit_uv(light.landing.faces[face], light.surfaces, index(triangle), b.x, b.y));
+  return PatchPlace{static_cast<std::uint32_t>(index(behind)),
+                    hit_uv(light.landing.faces[face], light.surfaces, index(triangle), b.x, b.y)};
 }
 
 Rgb albedo_at(const LightScene& light, const Sight& sight) {

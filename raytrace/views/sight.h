@@ -15,6 +15,7 @@ struct Sight {
   Point3 position{0.0};
   Direction normal{0.0}; ///< by which what is met reflects towards the eye: of the face or the curve
   std::uint32_t side = FaceRecord::nothing; ///< index of the SideId, if the face carries radiosity
+  glm::vec2 uv{0.0F};                       ///< in the patch of that side
   FieldPoint place{};                       ///< on that side
   int mirrors = 0;                          ///< on the way
   double distance = 0.0; ///< from the eye, metres, unfolded at the mirrors
@@ -36,8 +37,14 @@ SightStep sight_step(const LightScene& light, const FaceRecord& face, const Hit&
 Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
                       const Vec3& along);
 
+/// A place on a side of a patch.
+struct PatchPlace {
+  std::uint32_t side; ///< index of the SideId
+  glm::vec2 uv;
+};
+
 /// The same place on the other side of a translucent surface; none of others.
-std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, TriangleId triangle,
+std::optional<PatchPlace> place_behind(const LightScene& light, SideId side, TriangleId triangle,
                                        Vec2 barycentric);
 
 /// rho_d, dimensionless, at the end of a sight, textures included; 0 where no diffuse surface is met.

@@ -5,8 +5,9 @@
 //
 //   w = max over both neighbours of  abs((o' - o) + t (d' - d))        metres,
 //
-// t the way from the eye unfolded at the mirrors. The field is refined by these points only: surfaces seen by
-// lobes or through solids of glass are as fine as their other views make them.
+// t the way from the eye unfolded at the mirrors. Where a surface is seen at a grazing angle, elements lie between two
+// such points of one patch: places on the way, one an element, are seen as well. The field is refined by these points
+// only: surfaces seen by lobes or through solids of glass are as fine as their other views make them.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"

@@ -1,5 +1,7 @@
 #include "runs/batch/batch_forecast.h"
 
+#include "raytrace/pixels/sample_choice.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -10,7 +12,7 @@ BatchForecast::BatchForecast(std::span<const BatchPicture> pictures) : waits_(pi
     const RunSettings& settings = picture.request.settings;
     kind_of_.emplace_back(settings.mode, diffuse_term(settings), settings.quality);
     rays_.push_back(double(picture.size.width) * picture.size.height *
-                    two_pass_settings(settings).render.samples);
+                    first_samples(two_pass_settings(settings).render).count);
   }
 }
 

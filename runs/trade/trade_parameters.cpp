@@ -144,8 +144,11 @@ RunSettings spelled_out(const RunSettings& settings) {
     result.rays = preset.rays;
   if (!result.link_error && mesh_cut(result) == MeshCut::hierarchical)
     result.link_error = preset.link_error;
-  if (!result.samples)
+  if (!result.samples) {
     result.samples = preset.samples;
+    if (preset.pixel_error > 0.0 && !result.pixel_error)
+      result.pixel_error = preset.pixel_error;
+  }
   result.diffuse = diffuse_term(result);
   return result;
 }

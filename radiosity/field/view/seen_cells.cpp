@@ -28,15 +28,18 @@ std::vector<ElementId> elements_of(std::span<const SeenPoint> seen) {
   return elements;
 }
 
-/// By element, without those within a pixel.
-std::vector<SeenPoint> sorted(const ElementMesh& mesh, std::vector<SeenPoint> seen) {
+/// By element, without those within a pixel that tell nothing of an edge.
+std::vector<SeenPoint> sorted(const ElementMesh& mesh, std::vector<SeenPoint> seen,
+                              const SeenCells::HasEdge& has_edge) {
   std::ranges::stable_sort(seen, {}, &SeenPoint::element);
   auto kept = seen.begin();
   for (auto first = seen.begin(), end = first; first != seen.end(); first = end) {
     end = std::find_if(first, seen.end(),
                        [&](const SeenPoint& point) { return point.element != first->element; });
     const float narrowest = std::ranges::min_element(first, end, {}, &SeenPoint::width)->width;
-    if (longest_edge(mesh, ElementId{first->element}) > double{narrowest})
+    const ElementId element{first->element};
+    const double pixels = longest_edge(mesh, element) / double{narrowest};
+    if (pixels > 1.0 || has_edge(element, pixels))
       kept = std::move(first, end, kept);
   }
   seen.erase(kept, seen.end());
@@ -45,9 +48,9 @@ std::vector<SeenPoint> sorted(const ElementMesh& mesh, std::vector<SeenPoint> se
 
 } // namespace
 
-SeenCells::SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, double apart,
+SeenCells::SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, double apart, const HasEdge& has_edge,
                      const std::function<float(const SeenPoint&)>& lit)
-    : mesh_(mesh), apart_(apart), seen_(sorted(mesh, std::move(seen))),
+    : mesh_(mesh), apart_(apart), seen_(sorted(mesh, std::move(seen), has_edge)),
       lattice_(mesh, elements_of(seen_)), roots_(lattice_.cells().size()),
       root_of_(element_count(mesh), 0) {
   if (lit)

@@ -21,10 +21,13 @@ struct SeenPoint {
 
 class SeenCells {
 public:
-  /// The elements that points are in, but for those within a pixel, which show what their corners have.
-  /// Points are a pixel apart, or `apart` pixels. `lit` says what a point receives from punctual lights; empty:
+  /// Whether direct light differs between the corners of an element of so many pixels.
+  using HasEdge = std::function<bool(ElementId, double pixels)>;
+
+  /// The elements that points are in, but for those within a pixel without an edge, which show what their corners
+  /// have. Points are a pixel apart, or `apart` pixels. `lit` says what a point receives from punctual lights; empty:
   /// nothing.
-  SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, double apart,
+  SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, double apart, const HasEdge& has_edge,
             const std::function<float(const SeenPoint&)>& lit);
 
   const LatticeCells& lattice() const { return lattice_; }

@@ -212,9 +212,8 @@ private:
     light.surplus = off > 0.0F && all > 0.0F ? off / all : 0.0F;
   }
 
-  /// A share of the mean of what is seen: what is darker is not told apart.
+  /// H_dark, by what is seen.
   float darkness() const {
-    constexpr double share = 0.05;
     double sum = 0.0, points = 0.0;
     for (std::uint32_t c = 0; c < seen_.roots(); ++c) {
       for (const std::uint32_t v : cells_.cells()[c].corners)
@@ -222,7 +221,7 @@ private:
                double{largest(lights_[v].direct + lights_[v].indirect)};
       points += double(seen_.points(c));
     }
-    return points > 0.0 ? static_cast<float>(share * sum / points) : 0.0F;
+    return points > 0.0 ? dark_share * static_cast<float>(sum / points) : 0.0F;
   }
 
   /// The most light at its corners.
@@ -258,15 +257,12 @@ private:
 
   /// Whether a vertex of that level tells to divide a cell of so many pixels.
   bool stands_out(std::uint32_t v, int level, double pixels) const {
-    constexpr double within_pixel = 2.5;
-    const double bound = pixels > 1.0 ? how_.tolerance : within_pixel * how_.tolerance / pixels;
-    return cells_.vertices()[v].level == level && double{lights_[v].surplus} > bound &&
+    return cells_.vertices()[v].level == level && double{lights_[v].surplus} > surplus_bound(how_, pixels) &&
            pixels > how_.finest;
   }
 
   /// Whether a cell that was made with the last vertices is to be divided.
   bool tells_to_divide(std::uint32_t number, bool first) const {
-    constexpr float spread_to_surplus = 4.0F;
     const double narrow_shadow = 0.5 * std::min(seen_.apart(), 1.0); // pixels
     const LatticeCell& cell = cells_.cells()[number];
     const double pixels = seen_.pixels(number);
@@ -381,8 +377,12 @@ ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, 
         sum += arrival.irradiance;
       return static_cast<float>(largest(sum));
     };
+  const float dark = dark_share * mean_light(field);
+  const auto has_edge = [&](ElementId element, double pixels) {
+    return has_edge_of_light(field, element, pixels, dark, how);
+  };
   ViewField result =
-      ViewRefiner(field, SeenCells(light.mesh, std::move(seen), apart, lit), how, progress).refined();
+      ViewRefiner(field, SeenCells(light.mesh, std::move(seen), apart, has_edge, lit), how, progress).refined();
   for (const SharedLightWorkspace& work : workspaces)
     result.shadow_rays += work.point.shadow_rays;
   return result;

@@ -7,8 +7,7 @@
 //
 //   abs(D - D_mean) - 2 noise  >  tolerance (H + H_dark)                   the hierarchical surplus.
 //
-// Within a pixel an edge counts by the share of the pixel that it crosses: cells of p < 1 pixels are divided down to
-// `finest` where the surplus exceeds 2.5 tolerance / p, so that edges end within pixels.
+// Within a pixel less is asked (view_refinement.h), down to `finest`, so that edges end within pixels.
 //
 // In a smooth place the surplus falls to a quarter with each level, at the edge of a shadow it stays: smooth light
 // costs few vertices, and an edge a row of cells as small as pixels. A cell beside smaller ones is
@@ -25,23 +24,12 @@
 
 #include "radiosity/field/irradiance_field.h"
 #include "radiosity/field/view/seen_cells.h"
+#include "radiosity/field/view/view_refinement.h"
 #include "scenes/progress.h"
 
 #include <vector>
 
 namespace meninas {
-
-struct ViewRefinement {
-  double coarse = 8.0;     ///< pixels
-  double finest = 0.1;     ///< pixels: no smaller cell is divided
-  double tolerance = 0.02; ///< dimensionless
-  int rays = 8;            ///< from a vertex to an image of an emitter, to begin with
-  int penumbra_rays =
-      128;              ///< where some arrive and some do not, from one that stands for many pixels
-  int solid_rays = 256; ///< to a body of solid glass that fills the hemisphere
-  int images = 256;     ///< of emitters; of more, a choice
-  std::uint32_t seed = 0;
-};
 
 struct ViewField {
   IrradianceField field; ///< with cells of its own; its first values are those of the mesh
