@@ -159,8 +159,8 @@ Forecast forecast(const MeasuredRun& run, const Parameters& parameters) {
                               ? run.pass_one_cost * std::pow(elements, of_elements) *
                                     (source_rays + parameters.rays) / (source_rays + run.parameters.rays)
                               : 0.0;
-  return {std::sqrt(squared),
-          pass_one + pass_two_cost(run, parameters) + estimate_cost(run, parameters)};
+  const double estimate = estimate_cost(run, parameters);
+  return {std::sqrt(squared), pass_one + pass_two_cost(run, parameters) + estimate, estimate};
 }
 
 } // namespace meninas

@@ -62,6 +62,7 @@ struct Forecast {
   /// The cost of the work to be done anew: nothing of pass one where only pass two changes,
   /// nor of the view's field where only samples do.
   double cost = 0.0;
+  double estimate = 0.0; ///< of the cost, what telling the error takes, at the end
 };
 Forecast forecast(const MeasuredRun& run, const Parameters& parameters);
 

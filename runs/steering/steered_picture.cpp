@@ -80,7 +80,7 @@ RunEvents events_of(Steering& steering, bool may_end) {
   if (!steering.warned)
     events.warning = steering.events.warning;
   events.progress = [&steering, may_end](std::string_view stage, double fraction) {
-    if (may_end && steering.left() < 0.0)
+    if (may_end && steering.left() < steering.estimate_seconds)
       throw OutOfTime{};
     if (steering.events.progress)
       steering.events.progress(stage, fraction);

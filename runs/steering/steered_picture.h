@@ -66,6 +66,7 @@ struct Steering {
   std::optional<Parameters> lit_with = {};
   std::optional<KeptView> view = {};
   bool warned = false;
+  double estimate_seconds = 0.0; ///< what telling the error of the picture under way is foretold to take
 
   /// Cost is counted in rays if only an error is wanted, so that every run chooses alike; else in seconds.
   bool counts_rays() const { return !request.goal.seconds; }
@@ -81,7 +82,7 @@ struct SteeredRun {
 };
 
 /// Makes a picture and estimates its error by twice as many pixels as are usual.
-/// Throws OutOfTime if `may_end` and the time is over.
+/// Throws OutOfTime if `may_end` and the time is over, but for what telling the error will take.
 SteeredRun run_with(Steering& steering, const Parameters& parameters, bool may_end);
 
 } // namespace meninas

@@ -79,6 +79,7 @@ struct Search {
     Stopwatch watch;
     const auto was = steering.lit_with;
     std::optional<SteeredRun> run;
+    steering.estimate_seconds = steering.counts_rays() ? 0.0 : next.forecast.estimate;
     try {
       run = run_with(steering, next.parameters, best.has_value());
     } catch (const OutOfTime&) {

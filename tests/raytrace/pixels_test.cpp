@@ -164,6 +164,20 @@ TEST(SampleChoice, WhereNothingDiffersTheFirstAreEnough) {
   }
 }
 
+TEST(SampleChoice, EachPixelTakesTheFirstOnesAndThoseAtEdgesAll) {
+  Scene scene;
+  add_polygon(scene, "lamp", {{-1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 1, 0}}, diffuse(0.0, 3.0));
+  const Camera camera = look_at({0.0, 0.0, 2.0}, {0.0, 0.0, 0.0}, 0.3);
+  const Taken lit = lit_up(scene, coarse());
+  RenderSettings settings = pixels(9, 8, 64);
+  settings.pixel_error = 0.05;
+  settings.min_samples = 16;
+  const Rendering rendering = render(lit.solution.field, camera, settings);
+  // The edge goes through the middle column; the two beside it differ from it.
+  for (int x = 0; x < 9; ++x)
+    EXPECT_EQ(rendering.samples[std::size_t(4 * 9 + x)], x >= 3 && x <= 5 ? 64U : 16U) << x;
+}
+
 TEST(SampleChoice, PixelsAreRightToWhatIsAskedFor) {
   const Scene scene = room();
   const Taken lit = lit_up(scene, coarse());

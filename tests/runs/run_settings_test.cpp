@@ -70,6 +70,26 @@ TEST(DiffuseTerm, IsDirectWhereTheMeshIsFinerThanPicturesNeed) {
   EXPECT_EQ(term(settled(draft, fine)), DiffuseTerm::interpolated);
 }
 
+// A number of samples alone is that of every pixel.
+TEST(Samples, AreAdaptiveUnlessTheirNumberIsAskedFor) {
+  const auto render_of = [](const RunSettings& settings) { return two_pass_settings(settings).render; };
+  EXPECT_EQ(render_of(with_quality(Quality::draft)).pixel_error, 0.0);
+  for (const Quality quality : {Quality::normal, Quality::fine}) {
+    RunSettings settings = with_quality(quality);
+    const RenderSettings preset = render_of(settings);
+    EXPECT_GT(preset.pixel_error, 0.0);
+    EXPECT_EQ(preset.samples, 4 * preset.min_samples);
+    settings.samples = 32;
+    EXPECT_EQ(render_of(settings).samples, 32);
+    EXPECT_EQ(render_of(settings).pixel_error, 0.0);
+    settings.samples.reset();
+    settings.pixel_error = 0.3;
+    EXPECT_EQ(render_of(settings).samples, preset.samples);
+    EXPECT_EQ(render_of(settings).pixel_error, 0.3);
+    EXPECT_EQ(render_of(settings).min_samples, RenderSettings{}.min_samples) << "as few as the pixel needs";
+  }
+}
+
 TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {
   const auto wanted = [](const RunSettings& settings) {
     return two_pass_settings(settings).pass_one.mesh.target_elements;

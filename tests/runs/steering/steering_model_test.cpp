@@ -44,7 +44,9 @@ TEST(Forecast, OfFindingOutIsWhatItsPixelsAndTheirSamplesTake) {
   run.pass_one_cost = run.pass_two_cost = 0.0;
   run.estimate_cost = 0.03;
   const auto seconds = [&](double elements, int rays, int samples) {
-    return forecast(run, {elements, rays, samples, run.parameters.term}).cost;
+    const Forecast then = forecast(run, {elements, rays, samples, run.parameters.term});
+    EXPECT_EQ(then.estimate, then.cost) << "nothing else costs anything";
+    return then.cost;
   };
   EXPECT_NEAR(seconds(600, 64, 16), 0.03, 1e-12) << "pixels of 4 are four times as many";
   EXPECT_NEAR(seconds(600, 64, 64), 0.02 + 0.01 * (16 + 16 + 64) / 3.0 / 16.0, 1e-12);

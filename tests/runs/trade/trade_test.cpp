@@ -101,6 +101,8 @@ TEST(Parameters, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
   };
   using Turns = std::set<std::pair<std::string, bool>>;
   RunSettings settings = spelled_out({});
+  EXPECT_EQ(settings.pixel_error, preset_of(Quality::normal).pixel_error);
+  settings.pixel_error.reset();
   settings.samples = 4;
   EXPECT_EQ(pixel_errors(settings), Turns{});
   settings.samples = 16;
