@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace meninas {
 
@@ -101,30 +101,36 @@ std::vector<SeenEnds> row_of_ends(const LightScene& light, const Camera& camera,
 /// The points at the corners of each pixel and, where they are less than a pixel apart, between these.
 std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera,
                                    const RenderSettings& settings, double apart, const Progress& progress) {
-  const auto parallel = [&](std::size_t count, const auto& work) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t row) {
-      if (progress)
-        progress("render", 0.0);
-      work(row);
-    });
+  constexpr std::size_t together = 32; // rows, of which one is looked for twice
+  std::vector<std::vector<SeenPoint>> rows(static_cast<std::size_t>(std::ceil(settings.height / apart)) + 1);
+  const auto ends_of_row = [&](std::size_t row) {
+    if (progress)
+      progress("render", 0.0);
+    return row < rows.size() ? row_of_ends(light, camera, settings, apart, row) : std::vector<SeenEnds>{};
   };
-  std::vector<std::vector<SeenEnds>> ends(static_cast<std::size_t>(std::ceil(settings.height / apart)) + 1);
-  parallel(ends.size(), [&](std::size_t row) { ends[row] = row_of_ends(light, camera, settings, apart, row); });
-
-  std::vector<std::vector<SeenPoint>> rows(ends.size());
-  parallel(rows.size(), [&](std::size_t row) {
-    const SeenEnds none;
-    for (std::size_t column = 0; column < ends[row].size(); ++column) {
-      const SeenEnds &at = ends[row][column],
-                     &right = column + 1 < ends[row].size() ? ends[row][column + 1] : none,
-                     &below = row + 1 < ends.size() ? ends[row + 1][column] : none;
-      add_points(light, at.front, right.front, below.front, apart, rows[row]);
-      add_points(light, at.behind, right.behind, below.behind, apart, rows[row]);
+  tbb::parallel_for(std::size_t{0}, (rows.size() + together - 1) / together, [&](std::size_t block) {
+    const std::size_t first = block * together, end = std::min(first + together, rows.size());
+    std::vector<SeenEnds> ends = ends_of_row(first);
+    for (std::size_t row = first; row < end; ++row) {
+      std::vector<SeenEnds> next = ends_of_row(row + 1);
+      for (std::size_t column = 0; column < ends.size(); ++column) {
+        const SeenEnds none, &at = ends[column], &right = column + 1 < ends.size() ? ends[column + 1] : none,
+                             &below = column < next.size() ? next[column] : none;
+        add_points(light, at.front, right.front, below.front, apart, rows[row]);
+        add_points(light, at.behind, right.behind, below.behind, apart, rows[row]);
+      }
+      ends = std::move(next);
     }
   });
-  std::vector<SeenPoint> points;
+  std::size_t count = 0;
   for (const std::vector<SeenPoint>& row : rows)
+    count += row.size();
+  std::vector<SeenPoint> points;
+  points.reserve(count);
+  for (std::vector<SeenPoint>& row : rows) {
     points.insert(points.end(), row.begin(), row.end());
+    std::vector<SeenPoint>().swap(row); // there may be many megabytes of them
+  }
   return points;
 }
 
