@@ -50,8 +50,8 @@ int steps_between(const SeenEnd& from, const SeenEnd& to, const glm::vec2& to_ed
   constexpr double max_steps = 16.0;
   const glm::dvec2 elements(glm::abs(to.uv - from.uv) * to_edge);
   const double widths = glm::distance(from.position, to.position) / (apart * from.width);
-  return static_cast<int>(
-      std::clamp(std::max(std::ceil(std::max(elements.x, elements.y)), std::round(widths)), 1.0, max_steps));
+  const double steps = std::max(std::ceil(std::max(elements.x, elements.y)), std::round(widths));
+  return steps > 1.0 ? static_cast<int>(std::min(steps, max_steps)) : 1; // one where it is not a number
 }
 
 /// The end and places on the way to the next ones, where these are far from each other on the same patch: of a surface
