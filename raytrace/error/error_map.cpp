@@ -72,7 +72,8 @@ Image error_map(const IrradianceField& field, const Camera& camera,
         mean_around(product_about(first, picture_of(source), interpolated, unit), reach_of_edges);
   }
 
-  // The field's error without that of the edges is a share of the radiance.
+  // The field's error without that of the edges is a share of the radiance. Single rays at edges may be further off than
+  // pixels: no more of the estimate goes to edges than is their part of it.
   double edges2 = 0.0, radiance2 = 0.0;
   for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
     const glm::dvec3 l(picture.pixels[p]),
@@ -81,9 +82,10 @@ Image error_map(const IrradianceField& field, const Camera& camera,
     radiance2 +=
         glm::dot(glm::min(l, 4.0 * error.mean_radiance), glm::min(l, 4.0 * error.mean_radiance));
   }
-  const double field2 = (std::pow(error.total, 2.0) - std::pow(error.pixels, 2.0)) *
-                        std::pow(error.mean_radiance, 2.0) * 3.0 * double(picture.pixels.size());
-  const double share2 = radiance2 > 0.0 ? std::max(field2 - edges2, 0.0) / radiance2 : 0.0;
+  const double unit2 = std::pow(error.mean_radiance, 2.0) * 3.0 * double(picture.pixels.size()),
+               field2 = (std::pow(error.total, 2.0) - std::pow(error.pixels, 2.0)) * unit2,
+               at_edges2 = std::min(edges2, std::pow(error.mesh_direct, 2.0) * unit2);
+  const double share2 = radiance2 > 0.0 ? std::max(field2 - at_edges2, 0.0) / radiance2 : 0.0;
 
   Image map(picture.width, picture.height);
   for (std::size_t p = 0; p < map.pixels.size(); ++p) {
