@@ -369,24 +369,6 @@ TEST(ErrorMap, IsLargeWhereThePictureIsOff) {
   EXPECT_GT(worst, 0.8 * is);
 }
 
-// Single rays at edges are further off than an estimate of a thousandth that has no part of edges: all pixels have their
-// share of it nevertheless, of the radiance below four times the mean.
-TEST(ErrorMap, EdgesLeaveTheErrorOfGatheredLightWhereItIs) {
-  const TwoPassSettings settings = quick();
-  const Lit lit(lit_room(), settings);
-  const Image picture = lit.picture(settings.render);
-  PictureError error;
-  error.mean_radiance = 1.0;
-  error.total = error.form_factors = 0.001;
-  const Image map = error_map(lit.solution.field, lit.camera(), settings, picture, error);
-  double squares = 0.0;
-  for (const glm::vec3& pixel : picture.pixels)
-    squares += glm::dot(glm::min(glm::dvec3(pixel), 4.0), glm::min(glm::dvec3(pixel), 4.0));
-  const double share = error.total * std::sqrt(3.0 * double(picture.pixels.size()) / squares);
-  for (std::size_t p = 0; p < map.pixels.size(); ++p)
-    EXPECT_GE(double{map.pixels[p].g}, 0.999 * share * double{picture.pixels[p].g}) << p;
-}
-
 // In units of a power of two all is the same to the rounding of the estimate, whose squares are beyond floats.
 TEST(ErrorMap, DoesNotDependOnTheScaleOfLight) {
   const TwoPassSettings settings = quick();
