@@ -43,6 +43,7 @@ void settle_sky(Scene& scene, std::vector<std::string>& warnings) {
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
   DecodedTextures textures = decoded_or_white(scene, warnings);
   std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(warnings));
+  weigh_colours(scene, textures);
   settle_sky(scene, warnings);
   return textures;
 }

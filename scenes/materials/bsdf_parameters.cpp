@@ -40,7 +40,7 @@ static void lay_film(const MaterialPoint& point, double metal, Bsdf& bsdf) {
     bsdf.metal_below = point.base_color;
     bsdf.metal_with_film = below_film(point.film, point.base_color,
                                       mean_of_film(point.film, point.base_color).reflectance);
-    bsdf.metal = metal * bsdf.metal_with_film;
+    bsdf.metal += metal * (bsdf.metal_with_film - point.base_color);
   }
   if (bsdf.coat > 0.0) {
     const FilmMean mean = mean_of_film(point.film, bsdf.coat_f0 / bsdf.coat_f90);
@@ -68,9 +68,14 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   const bool blended = is_blended(material);
   const double dielectric = 1.0 - point.metallic;
   const double covered = blended ? 1.0 - point.transmission : 1.0;
-  bsdf.metal = point.base_color * (point.metallic * covered);
+  bsdf.metal = point.base_color * (point.metallic * covered) + point.metal_covariance * covered;
   const double even = dielectric * (1.0 - point.transmission);
   bsdf.diffuse = point.base_color * (even * (1.0 - point.diffuse_transmission));
+  if (point.metal_covariance != Rgb(0.0)) {
+    // What metal takes of the colour the rest has not.
+    const double left = (1.0 - point.transmission) * (1.0 - point.diffuse_transmission);
+    bsdf.diffuse = glm::max(bsdf.diffuse - point.metal_covariance * left, Rgb(0.0));
+  }
   bsdf.passed = point.diffuse_transmission_color * (even * point.diffuse_transmission);
   const bool solid = is_solid_glass(material);
   bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;

@@ -20,6 +20,7 @@ struct MaterialPoint {
   double anisotropy = 0.0;
   Vec2 anisotropy_direction{1.0, 0.0}; ///< unit, along the tangent and the bitangent
   ThinFilm film{};
+  Rgb metal_covariance{0.0}; ///< mean of base colour times metalness, less the product of both means
 };
 
 /// The factors alone, as where there is no texture.

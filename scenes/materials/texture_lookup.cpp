@@ -12,6 +12,8 @@ namespace {
 
 /// The texel that index k stands for.
 int wrapped(std::int64_t k, int size, Wrap wrap) {
+  if (k >= 0 && k < size)
+    return static_cast<int>(k);
   if (wrap == Wrap::clamp)
     return static_cast<int>(std::clamp<std::int64_t>(k, 0, size - 1));
   const std::int64_t period = wrap == Wrap::mirrored ? 2 * std::int64_t{size} : size;
@@ -84,15 +86,14 @@ Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord) {
 /// Between the four texels around a point.
 static glm::dvec4 bilinear(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
   const TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
-  const auto texel = [&](std::int64_t i, std::int64_t j) {
-    const int x = wrapped(i, pixels.width, texture.wrap_u);
-    const int y = wrapped(j, pixels.height, texture.wrap_v);
-    return glm::dvec4(pixels.texels[static_cast<std::size_t>(y) * pixels.width + x]);
+  const int left = wrapped(u.first, pixels.width, texture.wrap_u);
+  const int right = wrapped(u.first + 1, pixels.width, texture.wrap_u);
+  const auto row = [&](std::int64_t j) {
+    const auto y = static_cast<std::size_t>(wrapped(j, pixels.height, texture.wrap_v));
+    const glm::vec4* first = pixels.texels.data() + y * static_cast<std::size_t>(pixels.width);
+    return glm::mix(glm::dvec4(first[left]), glm::dvec4(first[right]), u.share);
   };
-  const glm::dvec4 upper = glm::mix(texel(u.first, v.first), texel(u.first + 1, v.first), u.share);
-  const glm::dvec4 lower =
-      glm::mix(texel(u.first, v.first + 1), texel(u.first + 1, v.first + 1), u.share);
-  return glm::mix(upper, lower, v.share);
+  return glm::mix(row(v.first), row(v.first + 1), v.share);
 }
 
 static glm::dvec4 nearest(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
@@ -105,21 +106,14 @@ static glm::dvec4 nearest(const TexturePixels& pixels, const Texture& texture, V
   return glm::dvec4(pixels.texels[static_cast<std::size_t>(y) * pixels.width + x]);
 }
 
-/// The mean over about `width` texels, one or more, from the two levels around it.
-static glm::dvec4 trilinear(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
-                            double width) {
-  const double coarsest = static_cast<double>(pixels.coarser.size());
-  const double level = std::clamp(std::log2(width), 0.0, coarsest);
-  const auto below = static_cast<std::size_t>(level);
-  const auto at = [&](std::size_t k) {
-    return bilinear(k == 0 ? pixels : pixels.coarser[k - 1], texture, uv);
-  };
-  const double share = level - static_cast<double>(below);
-  return share == 0.0 ? at(below) : glm::mix(at(below), at(below + 1), share);
-}
+/// How often an image is looked at along the longer side of a footprint, and the texels of a look.
+struct Looks {
+  Vec2 along{0.0};
+  double count = 0.0; ///< 0: the footprint is no larger than a texel
+  double width = 0.0;
+};
 
-glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
-                         const Footprint& footprint) {
+static Looks looks_at(const TexturePixels& pixels, const Footprint& footprint) {
   constexpr double max_looks = 16.0;
   const Vec2 size(pixels.width, pixels.height);
   Vec2 along = footprint.longer;
@@ -129,26 +123,161 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
     along = footprint.shorter;
   }
   if (!(length > 1.0) || !std::isfinite(length))
-    return texture.magnified == TexelFilter::nearest ? nearest(pixels, texture, uv)
-                                                     : bilinear(pixels, texture, uv);
-  const double looks = std::clamp(std::ceil(length / std::max(width, 1.0)), 1.0, max_looks);
-  const double each = std::max({width, length / looks, 1.0});
-  glm::dvec4 sum(0.0);
-  for (double k = 0.5; k < looks; k += 1.0)
-    sum += trilinear(pixels, texture, uv + (k / looks - 0.5) * along, each);
-  return sum / looks;
+    return {};
+  const double count = std::clamp(std::ceil(length / std::max(width, 1.0)), 1.0, max_looks);
+  return {along, count, std::max({width, length / count, 1.0})};
+}
+
+/// The mean of all looks, each from the two levels about its width; `at(level, uv)` is a level's value.
+template <typename At>
+static auto mean_of_looks(const Looks& looks, std::size_t coarsest, Vec2 uv, const At& at) {
+  const double level = std::clamp(std::log2(looks.width), 0.0, static_cast<double>(coarsest));
+  const auto below = static_cast<std::size_t>(level);
+  const double share = level - static_cast<double>(below);
+  decltype(at(below, uv)) sum(0.0);
+  for (double k = 0.5; k < looks.count; k += 1.0) {
+    const Vec2 there = uv + (k / looks.count - 0.5) * looks.along;
+    sum += share == 0.0 ? at(below, there) : glm::mix(at(below, there), at(below + 1, there), share);
+  }
+  return sum / looks.count;
+}
+
+/// A point of the image itself.
+static glm::dvec4 sharp_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
+  return texture.magnified == TexelFilter::nearest ? nearest(pixels, texture, uv)
+                                                   : bilinear(pixels, texture, uv);
+}
+
+glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
+                         const Footprint& footprint) {
+  const Looks looks = looks_at(pixels, footprint);
+  if (looks.count == 0.0)
+    return sharp_value(pixels, texture, uv);
+  return mean_of_looks(looks, pixels.coarser.size(), uv, [&](std::size_t k, Vec2 at) {
+    return bilinear(k == 0 ? pixels : pixels.coarser[k - 1], texture, at);
+  });
+}
+
+/// The point of an image that a point of a triangle shows, and the part of it.
+struct Shown {
+  Vec2 uv;
+  Footprint footprint;
+};
+
+static Shown shown_at(const Scene& scene, const TextureUse& use, TriangleId triangle,
+                      Vec2 barycentric, const Footprint& footprint) {
+  const auto place = [&](Vec2 weights) {
+    return transformed_texcoord(use, texcoord_at(scene, triangle, use.texcoord_set, weights));
+  };
+  const Vec2 origin = place(Vec2(0.0)); // the map is affine
+  return {place(barycentric), {place(footprint.longer) - origin, place(footprint.shorter) - origin}};
 }
 
 glm::dvec4 texel_at(const Scene& scene, const std::vector<TexturePixels>& list,
                     const TextureUse& use, TriangleId triangle, Vec2 barycentric,
                     const Footprint& footprint) {
-  const auto place = [&](Vec2 weights) {
-    return transformed_texcoord(use, texcoord_at(scene, triangle, use.texcoord_set, weights));
+  const Shown shown = shown_at(scene, use, triangle, barycentric, footprint);
+  return texture_value(list[index(use.texture)], scene.textures[index(use.texture)], shown.uv,
+                       shown.footprint);
+}
+
+/// The share w of a texel that is there, by its alpha.
+static double weight_of(const Material& material, double alpha) {
+  switch (material.alpha_mode) {
+  case AlphaMode::mask:
+    return material.alpha * alpha < material.alpha_cutoff ? 0.0 : 1.0;
+  case AlphaMode::blend:
+    return std::clamp(material.alpha * alpha, 0.0, 1.0);
+  case AlphaMode::opaque:
+    break;
+  }
+  return 1.0;
+}
+
+/// A texture of metalness that lies as the base colour's does, so that both vary together.
+static bool metal_lies_alike(const Material& material) {
+  const auto& base = material.base_color_texture;
+  const auto& metal = material.metallic_roughness_texture;
+  return base && metal && material.metallic > 0.0 && base->texcoord_set == metal->texcoord_set &&
+         base->offset == metal->offset && base->rotation == metal->rotation &&
+         base->scale == metal->scale;
+}
+
+/// (w c m, w) of a texel.
+static glm::dvec4 weighed(const Material& material, const glm::dvec4& base, double metalness) {
+  const double weight = weight_of(material, base.a);
+  return {glm::clamp(Rgb(base), 0.0, 1.0) * (weight * std::clamp(metalness, 0.0, 1.0)), weight};
+}
+
+void weigh_colours(const Scene& scene, DecodedTextures& textures) {
+  textures.weighed.assign(scene.materials.size(), {});
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    if (!material.base_color_texture)
+      continue;
+    const TexturePixels& base = textures.colours[index(material.base_color_texture->texture)];
+    const auto colour_at = [&](int x, int y) {
+      return glm::dvec4(base.texels[static_cast<std::size_t>(y) * base.width + x]);
+    };
+    if (material.alpha_mode != AlphaMode::opaque)
+      textures.weighed[m].base = coarser_levels(base.width, base.height, [&](int x, int y) {
+        return glm::vec4(weighed(material, colour_at(x, y), 1.0));
+      });
+    if (!metal_lies_alike(material))
+      continue;
+    // The image of metalness may have another size: a texel of the colour has its mean.
+    const TextureId id = material.metallic_roughness_texture->texture;
+    const TexturePixels& numbers = textures.numbers[index(id)];
+    const Vec2 size(1.0 / base.width, 1.0 / base.height);
+    textures.weighed[m].metal = coarser_levels(base.width, base.height, [&](int x, int y) {
+      const glm::dvec4 there =
+          base.width == numbers.width && base.height == numbers.height
+              ? glm::dvec4(numbers.texels[static_cast<std::size_t>(y) * base.width + x])
+              : texture_value(numbers, scene.textures[index(id)], size * (Vec2(x, y) + 0.5),
+                              {{size.x, 0.0}, {0.0, size.y}});
+      return glm::vec4(weighed(material, colour_at(x, y), there.b));
+    });
+  }
+}
+
+/// The base colour of the texture over what is shown of it, and the covariance of it with the metalness of its
+/// texture, `metalness` in the mean.
+struct MeanColours {
+  Rgb base, metal_covariance{0.0};
+};
+
+static MeanColours mean_colours(const Scene& scene, const DecodedTextures& textures,
+                                MaterialId id, const Shown& shown, const Rgb& plain,
+                                double metalness) {
+  MeanColours mean{plain};
+  if (index(id) >= textures.weighed.size())
+    return mean;
+  const auto& [base_levels, metal_levels] = textures.weighed[index(id)];
+  const Material& material = scene.materials[index(id)];
+  const TextureId base_id = material.base_color_texture->texture;
+  const TexturePixels& base = textures.colours[index(base_id)];
+  const Texture& texture = scene.textures[index(base_id)];
+  const Looks looks = looks_at(base, shown.footprint);
+  if (looks.count == 0.0)
+    return mean;
+  const auto mean_of = [&](const std::vector<TexturePixels>& levels, const auto& metalness_at) {
+    return mean_of_looks(looks, levels.size(), shown.uv, [&](std::size_t k, Vec2 at) {
+      return k == 0 ? weighed(material, bilinear(base, texture, at), metalness_at(at))
+                    : bilinear(levels[k - 1], texture, at);
+    });
   };
-  const Vec2 origin = place(Vec2(0.0)); // the map is affine
-  const Footprint covered{place(footprint.longer) - origin, place(footprint.shorter) - origin};
-  return texture_value(list[index(use.texture)], scene.textures[index(use.texture)],
-                       place(barycentric), covered);
+  if (!base_levels.empty())
+    if (const auto sum = mean_of(base_levels, [](Vec2) { return 1.0; }); sum.a > 0.0)
+      mean.base = Rgb(sum) / sum.a;
+  if (!metal_levels.empty()) {
+    const TextureId metal_id = material.metallic_roughness_texture->texture;
+    const auto sum = mean_of(metal_levels, [&](Vec2 at) {
+      return bilinear(textures.numbers[index(metal_id)], scene.textures[index(metal_id)], at).b;
+    });
+    if (sum.a > 0.0)
+      mean.metal_covariance = Rgb(sum) / sum.a - mean.base * metalness;
+  }
+  return mean;
 }
 
 bool is_textured(const Material& material) {
@@ -173,20 +302,29 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
   const auto value = [&](const TextureUse& use, const std::vector<TexturePixels>& list) {
     return texel_at(scene, list, use, triangle, barycentric, footprint);
   };
+  double metalness = 1.0;
+  if (const auto& use = material.metallic_roughness_texture) {
+    const glm::dvec4 texel = value(*use, textures.numbers);
+    metalness = std::clamp(texel.b, 0.0, 1.0);
+    point.roughness *= std::clamp(texel.g, 0.0, 1.0);
+    point.metallic *= metalness;
+  }
   if (const auto& use = material.base_color_texture) {
-    const glm::dvec4 texel = value(*use, textures.colours);
-    point.base_color *= glm::clamp(Rgb(texel), 0.0, 1.0);
+    const Shown shown = shown_at(scene, *use, triangle, barycentric, footprint);
+    const glm::dvec4 texel = texture_value(textures.colours[index(use->texture)],
+                                           scene.textures[index(use->texture)], shown.uv, shown.footprint);
+    const MeanColours mean =
+        mean_colours(scene, textures, scene.triangles[index(triangle)].material, shown,
+                     glm::clamp(Rgb(texel), 0.0, 1.0), metalness);
+    point.metal_covariance = material.metallic * point.base_color * mean.metal_covariance;
+    point.base_color *= mean.base;
     point.alpha *= texel.a;
   }
   if (has_vertex_colors(scene, triangle)) {
     const glm::dvec4 color = glm::clamp(color_at(scene, triangle, barycentric), 0.0, 1.0);
     point.base_color *= Rgb(color);
+    point.metal_covariance *= Rgb(color);
     point.alpha *= color.a;
-  }
-  if (const auto& use = material.metallic_roughness_texture) {
-    const glm::dvec4 texel = value(*use, textures.numbers);
-    point.roughness *= std::clamp(texel.g, 0.0, 1.0);
-    point.metallic *= std::clamp(texel.b, 0.0, 1.0);
   }
   if (const auto& use = material.transmission_texture)
     point.transmission *= std::clamp(value(*use, textures.numbers).r, 0.0, 1.0);

@@ -5,7 +5,10 @@
 // gets the mean over that part, its footprint: by trilinear look-ups in a pyramid of means,
 // as many along the footprint's longer axis as it is longer than the other (McCormack,
 // Perry, Farkas, Jouppi 1999, "Feline"), at most 16;
-// so textures far away come out as their mean, without moire. Holes are never averaged.
+// so textures far away come out as their mean, without moire. Holes are never averaged:
+// the colour beside them is that of what is there, and of blended materials the mean weighed by alpha.
+// Where metal is where a colour is, the mean of base colour times metalness is not the product of their
+// means; it is looked up in a pyramid of its own, and the point keeps the difference, their covariance.
 //
 // KHR_texture_transform takes (u, v) to offset + R (scale (u, v)) with R = (cos, sin;
 // -sin, cos), counter-clockwise as glTF sees it: v runs down the image.
@@ -25,15 +28,27 @@ namespace meninas {
 
 using DecodeTexture = std::function<TexturePixels(const Texture&, TextureContent)>;
 
+/// The pyramids of the base colour c of a material after its image, which count a texel by the share w of it
+/// that is there: texels are the means of (w c, w) and, with the metalness m, of (w c m, w).
+/// Empty where plain means do.
+struct WeighedColours {
+  std::vector<TexturePixels> base, metal;
+};
+
 /// By TextureId; without texels where no material uses it so.
 struct DecodedTextures {
   std::vector<TexturePixels> colours, numbers;
+  std::vector<WeighedColours> weighed = {}; ///< by MaterialId, from weigh_colours()
 };
 
 /// The textures of a scene that has none.
 const DecodedTextures& no_textures();
 
 DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);
+
+/// The pyramids of base colours that are weighed: by the alpha of cut-out and blended materials,
+/// and by a texture of metalness that lies as the base colour does. Once the materials are settled.
+void weigh_colours(const Scene& scene, DecodedTextures& textures);
 
 /// Where on the image a texture coordinate falls.
 Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord);

@@ -1,5 +1,7 @@
 #include "scenes/materials/texture_pyramid.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace meninas {
@@ -53,6 +55,17 @@ std::vector<TexturePixels> coarser_levels(const TexturePixels& image) {
        last = &levels.back())
     levels.push_back(halved(*last));
   return levels;
+}
+
+std::vector<TexturePixels> coarser_levels(int width, int height,
+                                          const std::function<glm::vec4(int x, int y)>& at) {
+  TexturePixels image{width, height, {}};
+  image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      image.texels[static_cast<std::size_t>(y) * width + x] = at(x, y);
+  });
+  return coarser_levels(image);
 }
 
 } // namespace meninas

@@ -8,9 +8,15 @@
 
 #include "scenes/materials/texture_pixels.h"
 
+#include <functional>
+
 namespace meninas {
 
 /// The levels after `image`; none for an image of one texel.
 std::vector<TexturePixels> coarser_levels(const TexturePixels& image);
+
+/// The levels after an image of `width` by `height` texels that are worked out, `at(x, y)`, from several threads.
+std::vector<TexturePixels> coarser_levels(int width, int height,
+                                          const std::function<glm::vec4(int x, int y)>& at);
 
 } // namespace meninas

@@ -1,11 +1,14 @@
 // Textures over footprints:
 // means in the pyramid, and look-ups that average as much as they are told and no more.
 #include "scenes/materials/texture_lookup.h"
+#include "scenes/materials/lobes.h"
 #include "scenes/materials/texture_pyramid.h"
+#include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace meninas::test {
@@ -86,6 +89,103 @@ TEST(TexturePyramid, FootprintsWithoutEndAreFinite) {
                             std::numeric_limits<double>::quiet_NaN()})
     EXPECT_TRUE(
         std::isfinite(texture_value(image, repeating, {0.5, 0.5}, {{size, 0.0}, {0.0, size}}).r));
+}
+
+/// A quad that shows an image once, of 64 x 64 texels by their place; a texture of numbers may have another size.
+struct Painted {
+  Scene scene;
+  DecodedTextures textures;
+
+  Painted(Material material, const std::function<glm::vec4(int x, int y)>& colour,
+          const std::function<glm::vec4(int x, int y)>& number, int size_of_numbers) {
+    add_polygon(scene, "quad", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
+    for (Vertex& vertex : scene.vertices)
+      own_attributes(scene, vertex).texcoord[0] = glm::vec2(vertex.position);
+    scene.textures = {{.name = "colour", .encoded = {}}, {.name = "number", .encoded = {}}};
+    scene.materials[0].base_color_texture = TextureUse{.texture = TextureId{0}};
+    if (number)
+      scene.materials[0].metallic_roughness_texture = TextureUse{.texture = TextureId{1}};
+    textures = decode_textures(scene, [&](const Texture& texture, TextureContent) {
+      const bool is_colour = texture.name == "colour";
+      const int size = is_colour ? 64 : size_of_numbers;
+      TexturePixels image{size, size, {}};
+      for (int k = 0; k < size * size; ++k)
+        image.texels.push_back((is_colour ? colour : number)(k % size, k / size));
+      return image;
+    });
+    weigh_colours(scene, textures);
+  }
+
+  /// Over `width` of the image, about the middle of its first triangle.
+  MaterialPoint at(double width) const {
+    return material_at(scene, textures, TriangleId{0}, Vec2(1.0 / 3.0),
+                       {{width, 0.0}, {0.0, width}});
+  }
+};
+
+Material metal_by_texture() {
+  Material material;
+  material.base_color = Rgb(0.5, 1.0, 1.0);
+  material.metallic = 0.8;
+  return material;
+}
+
+TEST(TexturePyramid, MetalTakesTheColourOfItsOwnTexels) {
+  // Stripes of four texels: bright metal beside dark paint. The image of numbers may be coarser or finer;
+  // between texels as wide as a stripe its values rise and fall evenly, and three quarters of the metal are in its stripe.
+  for (const auto& [size, bright] : {std::pair{16, 0.75}, {64, 1.0}, {256, 1.0}}) {
+    const Painted both(
+        metal_by_texture(),
+        [](int x, int) { return glm::vec4(glm::vec3(x / 4 % 2 == 0 ? 0.9F : 0.1F), 1.0F); },
+        [size](int x, int) {
+          return glm::vec4(0.0F, 1.0F, x * 64 / size / 4 % 2 == 0 ? 1.0F : 0.0F, 1.0F);
+        },
+        size);
+    // Half of it is metal for a share of 0.8; the rest is paint.
+    const Rgb factor(0.5, 1.0, 1.0);
+    const double metal = 0.5 * 0.8 * (bright * 0.9 + (1.0 - bright) * 0.1);
+    const MaterialPoint point = both.at(1.0);
+    const Bsdf bsdf = make_bsdf(both.scene.materials[0], point);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(bsdf.metal[c], factor[c] * metal, 1e-5) << size;
+      EXPECT_NEAR(bsdf.diffuse[c], factor[c] * (0.5 - metal), 1e-5) << size;
+    }
+    EXPECT_NEAR(point.base_color.g, 0.5, 1e-5);
+    EXPECT_NEAR(point.metallic, 0.4, 1e-5);
+    EXPECT_EQ(both.at(0.0).metal_covariance, Rgb(0.0)) << "a point has both as they are";
+  }
+}
+
+TEST(TexturePyramid, ColoursThatDoNotGoWithMetalAreItsMean) {
+  const Painted across(
+      metal_by_texture(),
+      [](int x, int) { return glm::vec4(glm::vec3(x / 4 % 2 == 0 ? 0.9F : 0.1F), 1.0F); },
+      [](int, int y) { return glm::vec4(0.0F, 1.0F, y / 4 % 2 == 0 ? 1.0F : 0.0F, 1.0F); }, 64);
+  EXPECT_NEAR(across.at(1.0).metal_covariance.g, 0.0, 1e-6);
+}
+
+TEST(TexturePyramid, WhatIsCutOutHasNoColour) {
+  Material leaf;
+  leaf.base_color = Rgb(1.0);
+  leaf.alpha_mode = AlphaMode::mask;
+  // A leaf of 0.6 in every second stripe, and black where nothing is.
+  const auto texel = [](int x, int) {
+    return x / 4 % 2 == 0 ? glm::vec4(0.6F, 0.6F, 0.6F, 1.0F) : glm::vec4(0.0F);
+  };
+  const Painted cut(leaf, texel, nullptr, 1);
+  EXPECT_NEAR(cut.at(1.0).base_color.g, 0.6, 1e-5);
+  EXPECT_NEAR(cut.at(1.0).alpha, 0.5, 1e-5) << "which is a mean";
+
+  // Blended, half of it covers by 0.6 and a quarter as much by 0.2: (0.6 + 0.25 * 0.2) / 1.25.
+  leaf.alpha_mode = AlphaMode::blend;
+  const auto two = [](int x, int) {
+    return x / 4 % 2 == 0 ? glm::vec4(0.6F, 0.6F, 0.6F, 1.0F) : glm::vec4(0.2F, 0.2F, 0.2F, 0.25F);
+  };
+  EXPECT_NEAR(Painted(leaf, two, nullptr, 1).at(1.0).base_color.g, (0.6 + 0.25 * 0.2) / 1.25, 1e-5);
+
+  // An opaque material has no alpha, whatever its image says.
+  leaf.alpha_mode = AlphaMode::opaque;
+  EXPECT_NEAR(Painted(leaf, texel, nullptr, 1).at(1.0).base_color.g, 0.3, 1e-5);
 }
 
 } // namespace
