@@ -39,7 +39,8 @@ PassOneQuality pass_one_quality(Quality quality) {
             .link_error = 0.02,
             .penumbra_rays = 32,
             .images = 96,
-            .images_in_element = 8};
+            .images_in_element = 8,
+            .faintest_world = 0.03};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
@@ -47,7 +48,8 @@ PassOneQuality pass_one_quality(Quality quality) {
             .link_error = 0.01,
             .penumbra_rays = 128,
             .images = 256,
-            .images_in_element = 32};
+            .images_in_element = 32,
+            .faintest_world = 0.01};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
@@ -55,7 +57,8 @@ PassOneQuality pass_one_quality(Quality quality) {
             .link_error = 0.005,
             .penumbra_rays = 512,
             .images = 256,
-            .images_in_element = 32};
+            .images_in_element = 32,
+            .faintest_world = 0.01};
   }
   return {};
 }
@@ -109,6 +112,7 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice) {
   settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
   settings.solver.max_shots = choice.steps;
   settings.lamps = choice.lamps;
+  settings.plan.worlds.min_throughput = quality.faintest_world;
   settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
   settings.interpolation = interpolation_settings(choice, settings);
   // Means of elements show nowhere but where they are interpolated; else they light other elements,

@@ -53,6 +53,7 @@ struct PassOneQuality {
   int penumbra_rays = 0; ///< shadow rays from a vertex to an emitter that it sees in part
   int images = 0;        ///< of emitters, computed at a vertex; of more, a choice (mirror/light_choice.h)
   int images_in_element = 0; ///< likewise, at each of an element's points
+  double faintest_world = 0.0; ///< least throughput of a mirror world (mirror/worlds.h)
 };
 PassOneQuality pass_one_quality(Quality quality);
 

@@ -1,6 +1,7 @@
 #include "runs/run_settings.h"
 #include "raytrace/two_pass.h"
 #include "runs/steering/setting_options.h"
+#include "tests/support/rooms.h"
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -100,6 +101,21 @@ TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {
   EXPECT_EQ(wanted(settings), 5000.0);
   settings.form_factors = FormFactorMethod::analytic;
   EXPECT_EQ(wanted(settings), 5000.0) << "the user's word, however long it takes";
+}
+
+// Worlds behind two panes, each of which reflects a sixth: a draft leaves them to rays.
+TEST(MirrorWorlds, OfADraftBringMoreThanItsNoise) {
+  const Scene scene = facing_mirrors(Rgb(0.17));
+  const auto depth_at = [&](Quality quality) {
+    const PlanSettings plan = two_pass_settings(with_quality(quality)).pass_one.plan;
+    int depth = 0;
+    for (const MirrorWorld& world : plan_transport(scene, find_surfaces(scene), plan).worlds.worlds)
+      depth = std::max(depth, world.depth);
+    return depth;
+  };
+  EXPECT_EQ(depth_at(Quality::draft), 1) << "0.17^2 = 0.029 is below 0.03";
+  EXPECT_EQ(depth_at(Quality::normal), 2) << "0.17^3 = 0.005 is below 0.01";
+  EXPECT_EQ(depth_at(Quality::fine), 2);
 }
 
 // The options of a run are those that differ from what its preset does.
