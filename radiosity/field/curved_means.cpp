@@ -19,7 +19,7 @@ void add_at(const ElementMesh& mesh, const VertexEdges& edges, std::span<const g
             std::uint32_t v, std::uint32_t a, Curvature& curvature) {
   const Vec3 to_a = mesh.vertices[a] - mesh.vertices[v];
   for (const std::uint32_t b : edges.of(v))
-    if (queue_if_visible(to_a, mesh.vertices[b] - mesh.vertices[v])) {
+    if (are_in_line(to_a, mesh.vertices[b] - mesh.vertices[v])) {
       curvature.sum += glm::dot(to_a, to_a) * Rgb(second_derivative(mesh, values, v, a, b));
       ++curvature.ends;
       return;

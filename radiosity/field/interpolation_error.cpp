@@ -21,7 +21,7 @@ double largest_derivative(const ElementMesh& mesh, std::span<const glm::vec3> ir
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t k = i + 1; k < ends.size(); ++k) {
       const std::uint32_t a = ends[i], b = ends[k];
-      if (queue_if_visible(mesh.vertices[a] - mesh.vertices[v], mesh.vertices[b] - mesh.vertices[v]))
+      if (are_in_line(mesh.vertices[a] - mesh.vertices[v], mesh.vertices[b] - mesh.vertices[v]))
         largest_bend =
             std::max(largest_bend, brightest(second_derivative(mesh, irradiance, v, a, b)));
     }
@@ -109,7 +109,7 @@ std::vector<double> edge_difference_error(const ElementMesh& mesh,
   const auto goes_on = [&](std::uint32_t v, std::uint32_t from) {
     const auto ends = edges.of(v);
     return std::ranges::any_of(ends, [&](std::uint32_t to) {
-      return queue_if_visible(mesh.vertices[from] - mesh.vertices[v], mesh.vertices[to] - mesh.vertices[v]);
+      return are_in_line(mesh.vertices[from] - mesh.vertices[v], mesh.vertices[to] - mesh.vertices[v]);
     });
   };
   for (std::size_t e = 0; e < bends.size(); ++e)

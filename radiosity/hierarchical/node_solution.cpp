@@ -304,7 +304,7 @@ std::uint64_t bytes_of(const Transport& transport) {
 FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
                                    double unevenness) {
   // The noise of N rays is sqrt(unevenness) N^-3/4 (gather_noise.h).
-  constexpr double few = 128.0, most = 1024.0, even = 2.0;
+  constexpr double few = 512.0, most = 4096.0, even = 2.0;
   constexpr int least = 32;
   const double with_all =
       std::clamp(few * std::pow(unevenness / even, 0.5 / noise_order), few, most);

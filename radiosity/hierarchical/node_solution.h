@@ -28,7 +28,7 @@
 // A receiver's error is reflected about P / P_1 times, so bright closed rooms need a smaller X.
 // If vertices gather the visible light (node_field.h), elements only light others and may be coarser:
 // twenty link errors take the place of one, and D is the mean of the corners (node_light.h).
-// More than 128 rows share the rays of 128 full rows, or of up to 1,024 where first light is uneven;
+// More than 512 rows share the rays of 512 full rows, or of up to 4,096 where first light is uneven;
 // above an unevenness of 8 the rows are traced again with more rays.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
@@ -66,8 +66,8 @@ struct NodeSolution {
   double seconds_gathering = 0.0, seconds_solving = 0.0;
 };
 
-/// The settings for each row of so many that only light others: of more than 128 they share
-/// the rays of so many, or of more, up to 1,024, where light is so uneven that few rays find it.
+/// The settings for each row of so many that only light others: of more than 512 they share
+/// the rays of so many, or of more, up to 4,096, where light is so uneven that few rays find it.
 /// `unevenness` is the mean of the squares of first light over the square of its mean.
 FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
                                    double unevenness = 1.0);

@@ -32,8 +32,9 @@ bool cache_occluders(std::vector<ImageSum>& images) {
   for (ImageSum& image : images) {
     if (!image.blockers || image.blockers->met.empty())
       continue;
-    auto& [known, met, learned] = *image.blockers;
+    auto& [known, met, learned, rims] = *image.blockers;
     learned += met.size();
+    rims = 0;
     any = true;
     known.insert(known.begin(), met.begin(), met.end());
     known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), max_known));

@@ -16,6 +16,7 @@ struct ImageOccluders {
   std::vector<CachedOccluder> known;
   std::vector<CachedOccluder> met; ///< by the mean in hand
   std::size_t learned = 0;       ///< so far, forgotten ones too
+  std::uint32_t rims = 0;        ///< points that have looked at the rim since something was learned
 
   /// Things as finely divided as this are left to rays.
   bool too_many() const { return learned > 32; }

@@ -2,14 +2,11 @@
 
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
-#include "radiosity/light/portal_light.h"
-#include "radiosity/light/virtual_light_visibility.h"
 #include "radiosity/scene/small_elements.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace meninas {
 
@@ -121,6 +118,32 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
   }
 }
 
+/// Rays to the rim of what a point sees of an image, which count nothing and teach what hides it: the frame of a window
+/// often hides a strip so thin that a few rays miss it, and all that they see would count as the whole.
+void look_at_rim(const Lighting& light, const Receiver& receiver, const WorthyImage& seen,
+                 SharedLightWorkspace& work) {
+  constexpr double inset = 1e-3; // of the way to the middle
+  constexpr std::uint32_t enough = 4; // as many as an element has corners
+  const auto& [image, at, worth] = seen;
+  ImageOccluders* blockers = work.images[at.image].blockers;
+  if (!blockers || blockers->rims >= enough || blockers->too_many() || image.stands_for_others())
+    return;
+  ++blockers->rims;
+  const Emitter& emitter = light.emitters[image.emitter];
+  const int mirrors = light.worlds.worlds[index(image.world)].depth;
+  for (const ConvexPolygon& part : parts_of(at, image, work)) {
+    Point3 middle(0.0);
+    for (const Point3& corner : part.span())
+      middle += corner / double(part.size);
+    for (const Point3& corner : part.span()) {
+      const Leg leg = shadow_leg(light.scene, emitter,
+                                 {receiver.position, glm::mix(corner, middle, inset), none<PlaneId>,
+                                  emitter.plane_class});
+      work.waiting.push_back({image.world, mirrors, at.image, leg.arriving, 0.0, leg.from, leg.to});
+    }
+  }
+}
+
 /// The largest distance of two corners of an element.
 double extent_of(const ElementMesh& mesh, ElementId element) {
   double most = 0.0;
@@ -202,74 +225,11 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
     ImageSum& total = work.images[at.image];
     total.form_factor += at.form_factor;
     const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
-    add_rays(light, receiver, {work.point.lights[i], at, worth}, seed, work);
+    const WorthyImage seen{work.point.lights[i], at, worth};
+    if (!knows_images && settings.one_place)
+      look_at_rim(light, receiver, seen, work);
+    add_rays(light, receiver, seen, seed, work);
   }
-}
-
-/// Keeps what has blocked a ray to the image.
-void cache_occluder(const Lighting& light, const LegBlocker& by, ImageSum& image) {
-  ImageOccluders& blockers = *image.blockers;
-  if (by.triangle == none<TriangleId> || blockers.too_many())
-    return;
-  const PatchId patch = light.scene.surfaces.patch_of_triangle[index(by.triangle)];
-  const auto is_it = [&](const CachedOccluder& blocker) {
-    return blocker.patch == patch && blocker.leg == by.leg;
-  };
-  if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
-    return;
-  if (auto blocker = blocker_of(light.scene, image.world, light.emitters[image.emitter], by))
-    blockers.met.push_back(*std::move(blocker));
-}
-
-/// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
-void order_waiting(SharedLightWorkspace& work) {
-  std::vector<std::uint32_t>& begin = work.first_with;
-  begin.assign(1, 0);
-  for (const WaitingRay& ray : work.waiting) {
-    const auto next = static_cast<std::size_t>(ray.mirrors) + 1;
-    if (begin.size() <= next)
-      begin.resize(next + 1, 0);
-    ++begin[next];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  work.order.resize(work.waiting.size());
-  for (std::uint32_t k = 0; k < work.waiting.size(); ++k)
-    work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
-}
-
-/// Traces the waiting rays, those of as many legs together.
-/// They come from points of one surface, as the receiver is.
-void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightWorkspace& work) {
-  order_waiting(work);
-  std::array<LegBlocker, 16> blockers;
-  for (std::size_t first = 0; first < work.waiting.size();) {
-    const auto count =
-        static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold(light.scene, ray.world, {ray.from, ray.to, receiver.plane_class, ray.arriving},
-           work.point.folded[k], solids_before(light.emitters[work.images[ray.image].emitter]));
-    }
-    const std::uint32_t dark =
-        blocked(light.scene, work.point.folded, count, work.point.shadow_rays, &blockers);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[work.order[first + k]];
-      ImageSum& image = work.images[ray.image];
-      image.all += ray.weight;
-      if (((dark >> k) & 1U) != 0U) {
-        if (image.blockers)
-          cache_occluder(light, blockers[k], image);
-        continue;
-      }
-      image.seen += ray.weight;
-      const Rgb left = transmittance_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
-                       shown_by(light.scene, light.emitters[image.emitter], work.point.folded[k]);
-      image.left += ray.weight * left;
-      image.squares += ray.weight * largest(left) * largest(left);
-    }
-    first += count;
-  }
-  work.waiting.clear();
 }
 
 /// The mean so far, by lamp in the workspace.

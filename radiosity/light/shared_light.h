@@ -20,6 +20,7 @@
 #include "radiosity/light/element_images.h"
 #include "radiosity/light/image_sums.h"
 #include "radiosity/light/light_samples.h"
+#include "radiosity/light/waiting_rays.h"
 
 #include <functional>
 #include <unordered_map>
@@ -42,16 +43,6 @@ struct SharedLightSettings {
       false; ///< images that bring less than the brightest one in sight take fewer rays
   bool one_place = false; ///< all points are the same one, which sends rays in rounds
   bool caches_occluders = false; ///< what blocks its rays, and uses what others have learned
-};
-
-/// A shadow ray that waits for others by way of about as many mirrors.
-struct WaitingRay {
-  WorldId world = real_world;
-  int mirrors = 0;
-  std::uint32_t image = 0; ///< index of its ImageSum
-  PlaneId arriving = none<PlaneId>;
-  double weight = 0.0;
-  Point3 from, to;
 };
 
 /// The visible part of an image from one point, past cached occluders.

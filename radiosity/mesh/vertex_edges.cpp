@@ -34,7 +34,7 @@ VertexEdges edges_of(const ElementMesh& mesh) {
   return edges;
 }
 
-bool queue_if_visible(const Vec3& to_a, const Vec3& to_b) {
+bool are_in_line(const Vec3& to_a, const Vec3& to_b) {
   constexpr double straight = -0.9;
   const double along = glm::dot(to_a, to_b);
   return along < 0.0 &&

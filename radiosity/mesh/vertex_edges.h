@@ -22,7 +22,7 @@ VertexEdges edges_of(const ElementMesh& mesh);
 
 /// Two edges from a vertex, of which the second goes on from the first:
 /// the cosine between them is -0.9 and less.
-bool queue_if_visible(const Vec3& to_a, const Vec3& to_b);
+bool are_in_line(const Vec3& to_a, const Vec3& to_b);
 
 /// The second derivative at v along two edges that go on, to a and to b.
 template <typename Value>

@@ -220,19 +220,19 @@ TEST(NodeLight, WhatChangesIsLitAgain) {
   }
 }
 
-// Rows share the rays of 128 as long as light is even. Its noise is sqrt(unevenness) N^-3/4,
-// so that sixteen times as uneven it takes 16^(2/3) = 6.3 times as many, and never more than asked.
+// Rows share the rays of 512 as long as light is even. Its noise is sqrt(unevenness) N^-3/4,
+// so that four times as uneven it takes 4^(2/3) = 2.5 times as many, and never more than asked.
 TEST(NodeLight, RowsShareRaysAsLightAllows) {
   FormFactorSettings settings;
   settings.rays = 512;
   const auto rays = [&](std::size_t rows, double unevenness) {
     return rays_per_row(settings, rows, unevenness).rays;
   };
-  EXPECT_EQ(rays(100, 1.0), 512);
-  EXPECT_EQ(rays(1024, 1.0), 64);
-  EXPECT_EQ(rays(1024, 2.0), 64);
-  EXPECT_EQ(rays(1024, 32.0), 512) << "403.2, as a power of two";
-  EXPECT_EQ(rays(1024, 1e6), 512);
+  EXPECT_EQ(rays(500, 1.0), 512);
+  EXPECT_EQ(rays(4096, 1.0), 64);
+  EXPECT_EQ(rays(4096, 2.0), 64);
+  EXPECT_EQ(rays(4096, 8.0), 256) << "161.3, as a power of two";
+  EXPECT_EQ(rays(4096, 1e6), 512);
   EXPECT_EQ(rays(100'000, 1.0), 32);
 }
 

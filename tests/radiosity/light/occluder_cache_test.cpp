@@ -104,6 +104,32 @@ std::vector<Point3> behind_mirror(const std::vector<Point3>& polygon) {
   return image;
 }
 
+// A frame that hides a strip of 2 % of a lamp: of sixteen rays none meets it in 72 of 100 places, and all of the lamp
+// would count. Rays to the rim of the lamp find it at once, in the mirror too.
+TEST(OccluderCache, FramesThatHideAThinStripAreFound) {
+  const Plate frame{0.48, 0.7, -0.7, 0.7};
+  Scene scene = lamp_room({frame.polygon()});
+  const auto lamp = facing_down(-1, 1, -1, 1, 2);
+  const auto room = lit(scene, {.element_size = 3.0});
+  add_mirror(scene);
+  const auto mirrored = lit(scene, {.element_size = 3.0});
+  const SharedLightSettings settings{.points = 1,
+                                     .max_points = 8,
+                                     .rays = 16,
+                                     .unsure = 1.0,
+                                     .one_place = true,
+                                     .caches_occluders = true};
+  const Receiver receiver = on_floor(*room, 0.0, 0.0);
+  const double exact = emitted * (factor(receiver, lamp) - factor(receiver, frame.shadow(receiver)));
+  for (std::uint32_t seed = 0; seed < 32; ++seed) {
+    // The second mean is the first that knows what the first has met.
+    EXPECT_NEAR(means_at(*room, receiver, 2, seed, settings).back(), exact, 1e-12 * exact) << seed;
+    const double more = means_at(*mirrored, on_floor(*mirrored, 0.0, 0.0), 2, seed, settings).back() - exact;
+    // Through the mirror the frame is beside the lamp, and hides nothing of it.
+    EXPECT_NEAR(more, emitted * factor(receiver, behind_mirror(lamp)), 1e-12 * exact) << seed;
+  }
+}
+
 TEST(OccluderCache, StandWhereMirrorsShowThem) {
   // A plate in front of the mirror, on both legs of the path by way of it,
   // and one on the way from the mirror to the lamp.
