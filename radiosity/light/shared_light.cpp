@@ -114,7 +114,7 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
                               : image.weight * area / rays * form_factor_share(receiver, image, y);
     const Leg leg = shadow_leg(light.scene, emitter,
                                {receiver.position, y, none<PlaneId>, emitter.plane_class});
-    work.waiting.push_back({image.world, mirrors, at.image, leg.arriving, weight, leg.from, leg.to});
+    work.waiting.rays.push_back({image.world, mirrors, at.image, leg.arriving, weight, leg.from, leg.to});
   }
 }
 
@@ -139,7 +139,7 @@ void look_at_rim(const Lighting& light, const Receiver& receiver, const WorthyIm
       const Leg leg = shadow_leg(light.scene, emitter,
                                  {receiver.position, glm::mix(corner, middle, inset), none<PlaneId>,
                                   emitter.plane_class});
-      work.waiting.push_back({image.world, mirrors, at.image, leg.arriving, 0.0, leg.from, leg.to});
+      work.waiting.rays.push_back({image.world, mirrors, at.image, leg.arriving, 0.0, leg.from, leg.to});
     }
   }
 }
@@ -316,7 +316,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
 
     // Between the first half of the points and all
     // of them the mean has moved by about its own error.
-    trace_waiting(light, next.receiver, work);
+    trace_waiting(light, next.receiver, work.waiting, work.images, work.point);
     const ArrivingLight mean = mean_of(light, work, sum);
     const double brightest = largest(mean.total);
     const bool has_settled = sum.points > settings.points &&

@@ -61,8 +61,7 @@ struct SharedLightWorkspace {
   std::vector<ImageAtPoint> at_point;                        ///< the images of one point
   std::vector<ConvexPolygon> parts;                          ///< of these
   std::vector<ConvexPolygon> cutting;                        ///< of one of them
-  std::vector<WaitingRay> waiting;
-  std::vector<std::uint32_t> order, first_with; ///< of these
+  WaitingRays waiting;
   ElementImages elements;
   std::vector<PunctualArrival> arrivals;
   double shadow_error = 0.0; ///< of the last mean, about, by the choice of shadow rays: its brightest channel, W/m^2

@@ -1,7 +1,6 @@
 #include "radiosity/light/waiting_rays.h"
 
 #include "radiosity/light/portal_light.h"
-#include "radiosity/light/shared_light.h"
 #include "radiosity/light/virtual_light_visibility.h"
 
 #include <algorithm>
@@ -26,40 +25,41 @@ void cache_occluder(const Lighting& light, const LegBlocker& by, ImageSum& image
     blockers.met.push_back(*std::move(blocker));
 }
 
-/// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
-void order_waiting(SharedLightWorkspace& work) {
-  std::vector<std::uint32_t>& begin = work.first_with;
+/// The rays by their number of mirrors, fewest first, in order where these are as many.
+void put_in_order(WaitingRays& waiting) {
+  std::vector<std::uint32_t>& begin = waiting.first_with;
   begin.assign(1, 0);
-  for (const WaitingRay& ray : work.waiting) {
+  for (const WaitingRay& ray : waiting.rays) {
     const auto next = static_cast<std::size_t>(ray.mirrors) + 1;
     if (begin.size() <= next)
       begin.resize(next + 1, 0);
     ++begin[next];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  work.order.resize(work.waiting.size());
-  for (std::uint32_t k = 0; k < work.waiting.size(); ++k)
-    work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
+  waiting.order.resize(waiting.rays.size());
+  for (std::uint32_t k = 0; k < waiting.rays.size(); ++k)
+    waiting.order[begin[static_cast<std::size_t>(waiting.rays[k].mirrors)]++] = k;
 }
 
 } // namespace
 
-void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightWorkspace& work) {
-  order_waiting(work);
+void trace_waiting(const Lighting& light, const Receiver& receiver, WaitingRays& waiting,
+                   std::vector<ImageSum>& images, DirectWorkspace& work) {
+  put_in_order(waiting);
   std::array<LegBlocker, 16> blockers;
-  for (std::size_t first = 0; first < work.waiting.size();) {
+  for (std::size_t first = 0; first < waiting.rays.size();) {
     const auto count =
-        static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
+        static_cast<std::uint32_t>(std::min<std::size_t>(16, waiting.rays.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[work.order[first + k]];
+      const WaitingRay& ray = waiting.rays[waiting.order[first + k]];
       fold(light.scene, ray.world, {ray.from, ray.to, receiver.plane_class, ray.arriving},
-           work.point.folded[k], solids_before(light.emitters[work.images[ray.image].emitter]));
+           work.folded[k], solids_before(light.emitters[images[ray.image].emitter]));
     }
     const std::uint32_t dark =
-        blocked(light.scene, work.point.folded, count, work.point.shadow_rays, &blockers);
+        blocked(light.scene, work.folded, count, work.shadow_rays, &blockers);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[work.order[first + k]];
-      ImageSum& image = work.images[ray.image];
+      const WaitingRay& ray = waiting.rays[waiting.order[first + k]];
+      ImageSum& image = images[ray.image];
       image.all += ray.weight;
       if (((dark >> k) & 1U) != 0U) {
         if (image.blockers)
@@ -67,14 +67,14 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
         continue;
       }
       image.seen += ray.weight;
-      const Rgb left = transmittance_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
-                       shown_by(light.scene, light.emitters[image.emitter], work.point.folded[k]);
+      const Rgb left = transmittance_between(light.scene, end_of(receiver), {}, work.folded[k]) *
+                       shown_by(light.scene, light.emitters[image.emitter], work.folded[k]);
       image.left += ray.weight * left;
       image.squares += ray.weight * largest(left) * largest(left);
     }
     first += count;
   }
-  work.waiting.clear();
+  waiting.rays.clear();
 }
 
 } // namespace meninas

@@ -5,11 +5,12 @@
 // Positions in metres, weights dimensionless.
 #pragma once
 
+#include "radiosity/light/image_sums.h"
 #include "radiosity/light/light_samples.h"
 
-namespace meninas {
+#include <vector>
 
-struct SharedLightWorkspace;
+namespace meninas {
 
 /// A shadow ray that waits for others by way of about as many mirrors.
 struct WaitingRay {
@@ -21,7 +22,14 @@ struct WaitingRay {
   Point3 from, to;
 };
 
-/// Traces the waiting rays of a workspace, which come from points of one surface, as the receiver is.
-void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightWorkspace& work);
+struct WaitingRays {
+  std::vector<WaitingRay> rays;
+  std::vector<std::uint32_t> order, first_with; ///< of these, by their mirrors
+};
+
+/// Traces the rays that wait, which come from points of one surface, as the receiver is, and adds what they find to
+/// the sums of their images; none waits any longer.
+void trace_waiting(const Lighting& light, const Receiver& receiver, WaitingRays& waiting,
+                   std::vector<ImageSum>& images, DirectWorkspace& work);
 
 } // namespace meninas
