@@ -9,7 +9,8 @@
 // out as the closed form's mean, without noise. Points are doubled until the mean settles.
 // The number of rays of a point depends only on earlier points, so the mean is unbiased. If it depended
 // on the point's own rays, the outer half of each penumbra would be too dark and the inner half too bright.
-// Limit: a mean may settle early and miss light or shade that none of its first rays met.
+// Limit: a mean may settle early and miss light or shade that none of its first rays met. Where one point learns what
+// blocks its rays, others of no weight look at the rim of each image, of which frames hide the thinnest strips.
 //
 // Occluders that rays have met are cached for later means that share the workspace (occluder_cache.h).
 // These take the shadows of cached occluders out of F exactly and send their rays past them:

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace meninas {
 
@@ -181,17 +183,18 @@ glm::dvec4 texel_at(const Scene& scene, const std::vector<TexturePixels>& list,
                        shown.footprint);
 }
 
+/// Whether part of a surface may not be there, as its texture's alpha says.
+static bool has_gaps(const Material& material) {
+  return material.alpha_mode == AlphaMode::mask || is_blended(material);
+}
+
 /// The share w of a texel that is there, by its alpha.
 static double weight_of(const Material& material, double alpha) {
-  switch (material.alpha_mode) {
-  case AlphaMode::mask:
-    return material.alpha * alpha < material.alpha_cutoff ? 0.0 : 1.0;
-  case AlphaMode::blend:
-    return std::clamp(material.alpha * alpha, 0.0, 1.0);
-  case AlphaMode::opaque:
-    break;
-  }
-  return 1.0;
+  MaterialPoint point;
+  point.alpha = material.alpha * alpha;
+  if (is_cut_out(material, point))
+    return 0.0;
+  return is_blended(material) ? std::clamp(point.alpha, 0.0, 1.0) : 1.0;
 }
 
 /// A texture of metalness that lies as the base colour's does, so that both vary together.
@@ -209,34 +212,63 @@ static glm::dvec4 weighed(const Material& material, const glm::dvec4& base, doub
   return {glm::clamp(Rgb(base), 0.0, 1.0) * (weight * std::clamp(metalness, 0.0, 1.0)), weight};
 }
 
+/// Whether the blue of an image differs by more than two 8-bit codes, as the noise of JPEG does.
+static bool blue_varies(const TexturePixels& image) {
+  constexpr float alike = 2.5F / 255.0F;
+  const auto [least, most] = std::ranges::minmax(image.texels, {}, &glm::vec4::b);
+  return most.b - least.b > alike;
+}
+
+static WeighedColours weighed_colours(const Scene& scene, const DecodedTextures& textures,
+                                      const Material& material) {
+  WeighedColours weighed_levels;
+  const TexturePixels& base = textures.colours[index(material.base_color_texture->texture)];
+  const auto colour_at = [&](int x, int y) {
+    return glm::dvec4(base.texels[static_cast<std::size_t>(y) * base.width + x]);
+  };
+  if (has_gaps(material))
+    weighed_levels.base = coarser_levels(base.width, base.height, [&](int x, int y) {
+      return glm::vec4(weighed(material, colour_at(x, y), 1.0));
+    });
+  if (!metal_lies_alike(material))
+    return weighed_levels;
+  const TextureId id = material.metallic_roughness_texture->texture;
+  const TexturePixels& numbers = textures.numbers[index(id)];
+  if (!blue_varies(numbers))
+    return weighed_levels;
+
+  // The image of metalness may have another size: a texel of the colour has its mean.
+  const Vec2 size(1.0 / base.width, 1.0 / base.height);
+  const bool same_size = base.width == numbers.width && base.height == numbers.height;
+  weighed_levels.metal = coarser_levels(base.width, base.height, [&](int x, int y) {
+    const glm::dvec4 there =
+        same_size ? glm::dvec4(numbers.texels[static_cast<std::size_t>(y) * base.width + x])
+                  : texture_value(numbers, scene.textures[index(id)], size * (Vec2(x, y) + 0.5),
+                                  {{size.x, 0.0}, {0.0, size.y}});
+    return glm::vec4(weighed(material, colour_at(x, y), there.b));
+  });
+  return weighed_levels;
+}
+
 void weigh_colours(const Scene& scene, DecodedTextures& textures) {
-  textures.weighed.assign(scene.materials.size(), {});
+  // What the pyramids depend on: images, and of what has gaps the alpha.
+  using Key = std::tuple<TextureId, TextureId, AlphaMode, double, double>;
+  std::map<Key, std::shared_ptr<const WeighedColours>> made;
+  textures.weighed.assign(scene.materials.size(), nullptr);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
-    if (!material.base_color_texture)
+    const bool gaps = has_gaps(material);
+    if (!material.base_color_texture || (!gaps && !metal_lies_alike(material)))
       continue;
-    const TexturePixels& base = textures.colours[index(material.base_color_texture->texture)];
-    const auto colour_at = [&](int x, int y) {
-      return glm::dvec4(base.texels[static_cast<std::size_t>(y) * base.width + x]);
-    };
-    if (material.alpha_mode != AlphaMode::opaque)
-      textures.weighed[m].base = coarser_levels(base.width, base.height, [&](int x, int y) {
-        return glm::vec4(weighed(material, colour_at(x, y), 1.0));
-      });
-    if (!metal_lies_alike(material))
-      continue;
-    // The image of metalness may have another size: a texel of the colour has its mean.
-    const TextureId id = material.metallic_roughness_texture->texture;
-    const TexturePixels& numbers = textures.numbers[index(id)];
-    const Vec2 size(1.0 / base.width, 1.0 / base.height);
-    textures.weighed[m].metal = coarser_levels(base.width, base.height, [&](int x, int y) {
-      const glm::dvec4 there =
-          base.width == numbers.width && base.height == numbers.height
-              ? glm::dvec4(numbers.texels[static_cast<std::size_t>(y) * base.width + x])
-              : texture_value(numbers, scene.textures[index(id)], size * (Vec2(x, y) + 0.5),
-                              {{size.x, 0.0}, {0.0, size.y}});
-      return glm::vec4(weighed(material, colour_at(x, y), there.b));
-    });
+    const TextureId metal = metal_lies_alike(material) ? material.metallic_roughness_texture->texture
+                                                       : none<TextureId>;
+    auto& levels = made[{material.base_color_texture->texture, metal,
+                         gaps ? material.alpha_mode : AlphaMode::opaque, gaps ? material.alpha : 1.0,
+                         gaps ? material.alpha_cutoff : 0.0}];
+    if (!levels)
+      levels = std::make_shared<WeighedColours>(weighed_colours(scene, textures, material));
+    if (!levels->base.empty() || !levels->metal.empty())
+      textures.weighed[m] = levels;
   }
 }
 
@@ -250,9 +282,9 @@ static MeanColours mean_colours(const Scene& scene, const DecodedTextures& textu
                                 MaterialId id, const Shown& shown, const Rgb& plain,
                                 double metalness) {
   MeanColours mean{plain};
-  if (index(id) >= textures.weighed.size())
+  if (index(id) >= textures.weighed.size() || !textures.weighed[index(id)])
     return mean;
-  const auto& [base_levels, metal_levels] = textures.weighed[index(id)];
+  const auto& [base_levels, metal_levels] = *textures.weighed[index(id)];
   const Material& material = scene.materials[index(id)];
   const TextureId base_id = material.base_color_texture->texture;
   const TexturePixels& base = textures.colours[index(base_id)];

@@ -23,6 +23,7 @@
 #include "scenes/scene.h"
 
 #include <functional>
+#include <memory>
 
 namespace meninas {
 
@@ -30,7 +31,7 @@ using DecodeTexture = std::function<TexturePixels(const Texture&, TextureContent
 
 /// The pyramids of the base colour c of a material after its image, which count a texel by the share w of it
 /// that is there: texels are the means of (w c, w) and, with the metalness m, of (w c m, w).
-/// Empty where plain means do.
+/// Empty where plain means do. Limit: the alpha of vertex colours does not count in w.
 struct WeighedColours {
   std::vector<TexturePixels> base, metal;
 };
@@ -38,7 +39,7 @@ struct WeighedColours {
 /// By TextureId; without texels where no material uses it so.
 struct DecodedTextures {
   std::vector<TexturePixels> colours, numbers;
-  std::vector<WeighedColours> weighed = {}; ///< by MaterialId, from weigh_colours()
+  std::vector<std::shared_ptr<const WeighedColours>> weighed = {}; ///< by MaterialId, from weigh_colours(); null: plain means do
 };
 
 /// The textures of a scene that has none.
@@ -47,7 +48,8 @@ const DecodedTextures& no_textures();
 DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);
 
 /// The pyramids of base colours that are weighed: by the alpha of cut-out and blended materials,
-/// and by a texture of metalness that lies as the base colour does. Once the materials are settled.
+/// and by a texture of metalness that varies and lies as the base colour does. Materials of the same images share
+/// them. Once the materials are settled.
 void weigh_colours(const Scene& scene, DecodedTextures& textures);
 
 /// Where on the image a texture coordinate falls.

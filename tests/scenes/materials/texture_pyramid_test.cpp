@@ -164,6 +164,29 @@ TEST(TexturePyramid, ColoursThatDoNotGoWithMetalAreItsMean) {
   EXPECT_NEAR(across.at(1.0).metal_covariance.g, 0.0, 1e-6);
 }
 
+// Sixty materials of one atlas take the memory of one, and metalness that is the same all over, but for noise, takes none.
+TEST(TexturePyramid, MaterialsOfTheSameImagesShareWhatIsWeighed) {
+  const auto colour = [](int x, int) { return glm::vec4(glm::vec3(x % 2 == 0 ? 0.9F : 0.1F), 1.0F); };
+  Painted painted(metal_by_texture(), colour,
+                  [](int x, int) { return glm::vec4(0.0F, 1.0F, x % 2 == 0 ? 1.0F : 0.0F, 1.0F); }, 64);
+  Material tinted = painted.scene.materials[0];
+  tinted.base_color = Rgb(0.2);
+  Material cut = tinted;
+  cut.alpha_mode = AlphaMode::mask;
+  painted.scene.materials.push_back(tinted);
+  painted.scene.materials.push_back(cut);
+  weigh_colours(painted.scene, painted.textures);
+  const auto& weighed = painted.textures.weighed;
+  ASSERT_NE(weighed[0], nullptr);
+  EXPECT_EQ(weighed[0], weighed[1]);
+  EXPECT_NE(weighed[0], weighed[2]) << "its alpha counts";
+
+  const Painted noisy(metal_by_texture(), colour, [](int x, int) {
+    return glm::vec4(0.0F, 1.0F, float(x % 3) / 255.0F, 1.0F);
+  }, 64);
+  EXPECT_EQ(noisy.textures.weighed[0], nullptr);
+}
+
 TEST(TexturePyramid, WhatIsCutOutHasNoColour) {
   Material leaf;
   leaf.base_color = Rgb(1.0);
@@ -178,6 +201,7 @@ TEST(TexturePyramid, WhatIsCutOutHasNoColour) {
 
   // Blended, half of it covers by 0.6 and a quarter as much by 0.2: (0.6 + 0.25 * 0.2) / 1.25.
   leaf.alpha_mode = AlphaMode::blend;
+  leaf.transmission = 1.0; // as the reader sets it, where a texture opens it
   const auto two = [](int x, int) {
     return x / 4 % 2 == 0 ? glm::vec4(0.6F, 0.6F, 0.6F, 1.0F) : glm::vec4(0.2F, 0.2F, 0.2F, 0.25F);
   };
