@@ -31,19 +31,29 @@ struct Receiving {
 
 /// The light of all lights.
 ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
-  std::uint32_t next = 0;
-  const auto next_point = [&]() -> NumberedPoint {
-    const NumberedPlace place = next_open_point(r.light.scene, r.area, r.covered, r.seed, next);
-    next = place.number + 1;
-    return {r.at(point_in(r.area, place.st)), place.number, r.element};
+  const SharedLightSettings settings{.points = r.settings.points,
+                                     .max_points = r.settings.max_points,
+                                     .images = r.settings.images_in_element,
+                                     .rays = r.settings.rays_in_element,
+                                     .solid_rays = r.settings.solid_rays_in_element,
+                                     .caches_occluders = true};
+  // Each time from the same points by other rays: those that have taught what blocks them have missed the rest.
+  const auto found = [&](std::uint32_t time) {
+    std::uint32_t next = 0;
+    const std::uint32_t seed = time == 0 ? r.seed : hash(r.seed, time);
+    const auto next_point = [&]() -> NumberedPoint {
+      const NumberedPlace place = next_open_point(r.light.scene, r.area, r.covered, r.seed, next);
+      next = place.number + 1;
+      return {r.at(point_in(r.area, place.st)), place.number, r.element};
+    };
+    return mean_direct_irradiance(r.light, next_point, settings, seed, work);
   };
-  return mean_direct_irradiance(r.light, next_point,
-                           {.points = r.settings.points,
-                            .max_points = r.settings.max_points,
-                            .images = r.settings.images_in_element,
-                            .rays = r.settings.rays_in_element,
-                            .solid_rays = r.settings.solid_rays_in_element},
-                           r.seed, work);
+  constexpr std::uint32_t times_learned = 2;
+  work.blockers_of.clear();
+  ArrivingLight light = found(0);
+  for (std::uint32_t time = 1; time <= times_learned && work.has_new_occluders; ++time)
+    light = found(time);
+  return light;
 }
 
 /// The irradiance from one punctual light at a point in the worlds that are wanted.

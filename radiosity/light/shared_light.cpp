@@ -226,7 +226,7 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
     total.form_factor += at.form_factor;
     const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
     const WorthyImage seen{work.point.lights[i], at, worth};
-    if (!knows_images && settings.one_place)
+    if (!knows_images)
       look_at_rim(light, receiver, seen, work);
     add_rays(light, receiver, seen, seed, work);
   }
