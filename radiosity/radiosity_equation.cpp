@@ -23,11 +23,17 @@ struct Watched {
   double seconds = 0.0;
 };
 
+/// The area of every element on which nothing stands, m^2.
+std::vector<double> exposed_areas(const ElementMesh& mesh, const std::vector<float>& exposed) {
+  std::vector<double> area = mesh.area;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] *= double{exposed[i]};
+  return area;
+}
+
 /// Shows the watch the field there is so far: H = D + G + what has been shot.
 ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
-  std::vector<double> area = watched.light.mesh.area;
-  for (std::size_t i = 0; i < area.size(); ++i)
-    area[i] *= double{watched.exposed[i]};
+  std::vector<double> area = exposed_areas(watched.light.mesh, watched.exposed);
   const auto power_of = [&](const std::vector<Rgb>& light, const std::vector<double>& areas) {
     double power = 0.0;
     for (std::size_t i = 0; i < areas.size(); ++i)
@@ -77,6 +83,8 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
     plan = {make_shooting_blocks(light.mesh, factors.exposed), shown(watched, watch)};
   else if (settings.solver.method == SolverMethod::jacobi && watch.every > 0)
     plan.watch = shown(watched, watch);
+  const std::vector<double> areas = exposed_areas(light.mesh, factors.exposed);
+  plan.areas = areas;
   if (watch.before_shots && plan.watch.look)
     plan.watch.look({0, std::vector<Rgb>(solved.first.source.size(), Rgb(0.0)), solved.first.source});
   solved.solver =
