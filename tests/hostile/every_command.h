@@ -3,7 +3,7 @@
 //
 //   every radiosity, irradiance, energy, pixel and form factor is finite and not negative,
 //   a form factor is at most 1, as is the sum of those to bodies that hide one another and pass nothing on,
-//   under a sky alone nothing is brighter than the sky (a bound of every bounce: rho <= 1).
+//   under a sky alone nothing is brighter than the sky (a bound of every bounce: rho <= 1) or than what is unlit.
 //
 // What goes on from the solution is done as well (solution_commands.h).
 #pragma once
