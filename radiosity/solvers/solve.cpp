@@ -55,7 +55,7 @@ std::pair<std::vector<std::uint32_t>, bool> lit_in_traps(const std::vector<Value
 
 /// The bound is relative to the brightest spot. Where a lamp is shut in a lantern, that says nothing of the room:
 /// the solver goes on until the error is small in the mean over area as well. Returns that error, if areas are known.
-/// Shots would begin anew, and those who watch sweeps count them.
+/// Two stop at the bound alone: shots would begin anew, and those who watch sweeps count them.
 template <typename Value>
 double run_until_all_is_near(SolverMethod method, const LinearSystem<Value>& system, const ShotPlan& plan,
                              std::vector<Value>& x, Convergence<Value>& convergence) {
@@ -69,6 +69,8 @@ double run_until_all_is_near(SolverMethod method, const LinearSystem<Value>& sys
   const bool goes_on = method != SolverMethod::progressive && !plan.watch.look;
   while (goes_on && off > tolerances * asked && converged(convergence)) {
     convergence.tolerance *= tighter;
+    convergence.residuals.pop_back(); // of the iterate that is recorded again as the first one
+    convergence.error_bounds.pop_back();
     run(method, system, plan, x, convergence);
     off = worst(relative_error(system, x, plan.areas));
   }

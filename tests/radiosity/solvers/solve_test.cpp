@@ -80,6 +80,7 @@ TEST(Solve, ABrightRoomDoesNotStandForADarkOne) {
         solve(transport_of({m}), source, half, {.method = method},
               {.shooters = {}, .watch = {}, .progress = {}, .areas = areas});
     EXPECT_TRUE(result.converged) << name_of(method);
+    EXPECT_EQ(result.residuals.size(), static_cast<std::size_t>(result.iterations) + 1);
     // B = S / (1 - rho^2) = 4/3; ten tolerances.
     EXPECT_NEAR(result.radiosity[2].r, 4.0 / 3.0, 1e-3 * 4.0 / 3.0) << name_of(method);
     EXPECT_NEAR(result.radiosity[3].r, 2.0 / 3.0, 1e-3 * 2.0 / 3.0) << name_of(method);

@@ -239,8 +239,6 @@ TEST_P(Solvers, ATrapMattersWhereThereIsLightInIt) {
   EXPECT_NE(run(system, 1e-4, 50).end, SolverEnd::unsolvable);
 }
 
-// Reflectance one, but every patch sees a hole in the end:
-// patch k sees k + 1, the last one the sky.
 // Few rays to a coat may all meet it where it lets in more than its mean: then the row sums to more than one. Where
 // such rows are white and look at one another light grows on every way round, whatever leaves by the third.
 TEST_P(Solvers, RowsThatGatherMoreThanAllThereIsHaveNoBound) {
@@ -257,6 +255,8 @@ TEST_P(Solvers, RowsThatGatherMoreThanAllThereIsHaveNoBound) {
   }
 }
 
+// Reflectance one, but every patch sees a hole in the end:
+// patch k sees k + 1, the last one the sky.
 TEST_P(Solvers, ReflectanceOneWithAWayOut) {
   constexpr int size = 12;
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
