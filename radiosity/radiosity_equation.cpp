@@ -129,13 +129,13 @@ ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings
 }
 
 ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings& settings,
-                                  const Progress& progress) {
+                                  const Progress& progress, std::span<const std::uint8_t> seen) {
   const bool vertices_gather = gathers_by_nodes(settings);
   Stopwatch watch;
   std::optional<LitVertices> vertices;
   if (vertices_gather)
-    vertices =
-        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation, progress});
+    vertices = lit_vertices(
+        light, {settings.form_factors, settings.direct, settings.interpolation, progress, seen});
   const double lighting = watch.lap();
   NodeSolution nodes = solve_by_nodes(
       light, {settings.form_factors, settings.direct, settings.hierarchical, settings.solver},
@@ -158,11 +158,12 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
 }
 
 ReflectedLight reflected_light(const LightScene& light, const PassOneSettings& settings,
-                               const Progress& progress, const PassOneWatch& watch) {
+                               const Progress& progress, const PassOneWatch& watch,
+                               std::span<const std::uint8_t> seen) {
   if (shoots_rays(settings, element_count(light.mesh)))
     return reflected_by_shots(light, settings, progress, watch);
   if (settings.cut == MeshCut::hierarchical)
-    return reflected_by_nodes(light, settings, progress);
+    return reflected_by_nodes(light, settings, progress, seen);
   Stopwatch stopwatch;
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
   const double seconds = stopwatch.lap();

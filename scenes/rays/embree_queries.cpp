@@ -72,7 +72,8 @@ LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule)
           glm::dot(normal, ray.direction) < 0.0F};
 }
 
-void trace_all(const RayScene& rays, const LaneRay& ray, const RayRule& rule, std::vector<LaneHit>& hits) {
+void trace_all(const RayScene& rays, const LaneRay& ray, const RayRule& rule,
+               std::vector<LaneHit>& hits) {
   hits.clear();
   RTCRayHit query = query_of(ray);
   auto context = make_context(rule, hits);
