@@ -25,7 +25,7 @@ VertexEdges edges_of(const ElementMesh& mesh);
 bool are_in_line(const Vec3& to_a, const Vec3& to_b);
 
 /// The second derivative at v along two edges that go on, to a and to b, in the values' unit over m^2:
-///   f'' = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|).
+///   f''(v) = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|).
 Rgb second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> values, std::size_t v,
                       std::size_t a, std::size_t b);
 
