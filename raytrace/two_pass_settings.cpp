@@ -15,7 +15,7 @@ RenderQuality render_quality(Quality quality) {
             .cell_tolerance = 0.04,
             .finest_cell = 0.2};
   case Quality::normal:
-    return {.samples = 64,
+    return {.samples = 256,
             .min_samples = 16,
             .pixel_error = 0.05,
             .diffuse = DiffuseTerm::direct,
@@ -25,7 +25,7 @@ RenderQuality render_quality(Quality quality) {
             .cell_tolerance = 0.02,
             .finest_cell = 0.2};
   case Quality::fine:
-    return {.samples = 256,
+    return {.samples = 1024,
             .min_samples = 64,
             .pixel_error = 0.02,
             .diffuse = DiffuseTerm::direct,
