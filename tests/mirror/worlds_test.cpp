@@ -134,7 +134,25 @@ TEST(MirrorWorlds, MirrorsBackToBackDoNotSeeEachOther) {
               double_sided(mirror(0.9)));
   const WorldTree tree = mirror_worlds(mirrors_of(std::move(scene)).set);
   EXPECT_EQ(tree.worlds.size(), 3U);
-  EXPECT_EQ(tree.pruned_unseen, 2U);
+  EXPECT_EQ(tree.considered, 2U);
+}
+
+// A sheet of tiles whose corners floats have rounded off its plane, to either side. A world of
+// both its faces would be the room itself, and lamps in front of the mirror would count twice.
+TEST(MirrorWorlds, NorDoRoundedOnes) {
+  constexpr int tiles = 12;
+  const auto corner = [](int i, int j) {
+    const double x = -1.0 + 2.0 * i / tiles, y = 0.4 + 1.6 * j / tiles;
+    return Point3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(-1.6 + 0.1 * (y - 0.4)));
+  };
+  Scene scene;
+  for (int j = 0; j < tiles; ++j)
+    for (int i = 0; i < tiles; ++i)
+      add_polygon(scene, "sheet",
+                  {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)},
+                  double_sided(mirror(0.9)));
+  const WorldTree tree = mirror_worlds(mirrors_of(std::move(scene)).set);
+  EXPECT_EQ(tree.worlds.size(), 3U);
 }
 
 TEST(MirrorWorlds, LimitsLeaveOutTheDeepest) {
