@@ -108,7 +108,10 @@ struct TreeBuilder {
 void TreeBuilder::open_child(std::size_t w, std::size_t m, std::size_t most) {
   const MirrorWorld& parent = tree.worlds[w];
   const Mirror& mirror = mirrors.mirrors[m];
-  if (parent.mirror == static_cast<MirrorId>(m))
+  // A line that has left a plane does not meet it again, nor its other side,
+  // though windows that float rounds may be beyond it by a hair.
+  if (parent.mirror != none<MirrorId> &&
+      mirrors.mirrors[index(parent.mirror)].plane_class == mirror.plane_class)
     return;
   ++tree.considered;
   const Plane plane = apply(parent.image, mirror.plane);

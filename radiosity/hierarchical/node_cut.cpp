@@ -170,6 +170,17 @@ NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
   }
 }
 
+NodeCut traced_anew(const LightScene& light, const NodeTree& tree, NodeCut cut,
+                    FormFactorSettings settings, const Progress& progress) {
+  settings.seed = hash(settings.seed, 0xa11e);
+  NodeCut again = gathered_by(light, tree, cut.receivers, settings, progress);
+  again.receiver_of_element = std::move(cut.receiver_of_element);
+  again.covered = std::move(cut.covered);
+  again.exposed = std::move(cut.exposed);
+  again.rays_traced += cut.rays_traced;
+  return again;
+}
+
 /// Whether what a receiver knows of what stands on it is true of its elements.
 static bool tells_of_elements(const NodeTree& tree, const NodeCut& cut, std::size_t receiver) {
   return is_leaf(tree.nodes[index(cut.receivers[receiver])]) ||

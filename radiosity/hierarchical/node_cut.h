@@ -51,6 +51,12 @@ NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
                    const std::vector<std::uint8_t>& marked, const FormFactorSettings& settings,
                    const Progress& progress);
 
+/// The same receivers with rows of other rays. Rays choose which receivers are divided: where few find the bright
+/// spot that lights all, receivers whose rays do are divided and traced again, those whose rays miss it are not,
+/// and light would be lost. Rows that had no say in it are right in the mean.
+NodeCut traced_anew(const LightScene& light, const NodeTree& tree, NodeCut cut,
+                    FormFactorSettings settings, const Progress& progress);
+
 /// The means over the elements below every receiver, X_c = sum A_j X_j / sum A_j. `areas` (m^2) and values by ElementId.
 std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,
                              const std::vector<double>& areas, const std::vector<Rgb>& values);

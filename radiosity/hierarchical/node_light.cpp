@@ -153,6 +153,17 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
   return result;
 }
 
+double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& values) {
+  double area = 0.0, sum = 0.0, squares = 0.0;
+  for (std::size_t e = 0; e < areas.size(); ++e) {
+    const double value = largest(values[e]);
+    area += areas[e];
+    sum += areas[e] * value;
+    squares += areas[e] * value * value;
+  }
+  return sum * sum > 0.0 ? area * squares / (sum * sum) : 1.0;
+}
+
 void recompute_direct(const LightScene& light, std::span<const ElementId> elements,
                  std::span<const ContactMask> covered, const DirectSettings& settings,
                  const Progress& progress, DirectIrradiance& direct) {

@@ -32,4 +32,8 @@ void recompute_direct(const LightScene& light, std::span<const ElementId> elemen
                  std::span<const ContactMask> covered, const DirectSettings& settings,
                  const Progress& progress, DirectIrradiance& direct);
 
+/// The mean of the squares of light over the square of its mean (1 where it is even), by ElementId;
+/// in the brightest channel, weighed by areas, m^2.
+double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& values);
+
 } // namespace meninas

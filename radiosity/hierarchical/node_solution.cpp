@@ -122,7 +122,8 @@ std::vector<Rgb> pulled(const NodeTree& tree, const NodeCut& cut, const std::vec
 }
 
 /// Receivers over which the light gathered by their rays (H, G and the sky) varies by more than it may.
-/// Their error is reflected on and on: the more often, the smaller the bound.
+/// Their error is reflected on and on: the more often, the smaller the bound. It is measured by the light there,
+/// but in a bright nook by a share of all light: what few receivers send out of it lights the room.
 std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
                                     const FirstLight& first, const std::vector<double>& areas,
                                     const std::vector<Rgb>& irradiance, double link_error) {
@@ -143,6 +144,7 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
     area += areas[e];
   }
   constexpr double often = 4.0; // more than in most rooms
+  constexpr double largest_share = 1.0 / 256.0; // of all light, in the error of one receiver
   const double bound = link_error * std::min(1.0, often * at_first_alone / std::max(light, 1e-300));
 
   // The largest difference between a node and its parts:
@@ -154,12 +156,14 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
       apart[index(parent)] =
           std::max(apart[index(parent)], largest(glm::abs(nodes[n] - nodes[index(parent)])));
   std::vector<std::uint8_t> marked(gathered.size(), 0);
+  const std::vector<double> of_receivers = areas_of_receivers(cut, areas);
   for (std::size_t c = 0; c < marked.size(); ++c) {
     const TreeNode& node = tree.nodes[index(cut.receivers[c])];
     if (is_leaf(node) || node.parent == none<TreeNodeId>)
       continue;
     const double varies = largest(reflectance[c]) * apart[index(node.parent)];
-    marked[c] = varies > bound * (largest(radiosity[c]) + light / area) ? 1 : 0;
+    const double allowed = std::min(largest(radiosity[c]), largest_share * light / of_receivers[c]);
+    marked[c] = varies > bound * (allowed + light / area) ? 1 : 0;
   }
   return marked;
 }
@@ -181,6 +185,7 @@ struct LitCut {
   std::vector<double> areas; ///< exposed, m^2
   DirectIrradiance direct;
   FirstLight first;
+  double unevenness = 1.0; ///< of first light, where that is large
 };
 
 /// The light of those elements whose covered part is another than `before`.
@@ -224,18 +229,6 @@ void recompute_direct_of_cut(const NodeProblem& problem, LitCut& lit) {
                           lit.direct, FormFactorMethod::rays);
 }
 
-/// The mean of the squares over the square of the mean.
-double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& values) {
-  double area = 0.0, sum = 0.0, squares = 0.0;
-  for (std::size_t e = 0; e < areas.size(); ++e) {
-    const double value = largest(values[e]);
-    area += areas[e];
-    sum += areas[e] * value;
-    squares += areas[e] * value * value;
-  }
-  return sum * sum > 0.0 ? area * squares / (sum * sum) : 1.0;
-}
-
 /// The first cut, lit, and how its rows are found:
 /// where elements only light others with few rays, and once more if light is very uneven.
 LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_factors,
@@ -257,10 +250,21 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
   find(rays_per_row(form_factors, rows, 1.0), lit);
   const double uneven = unevenness(lit.areas, lit.first.source);
   const FormFactorSettings more = rays_per_row(form_factors, rows, uneven);
-  if (form_factors.method == FormFactorMethod::rays && uneven > very_uneven &&
-      more.rays > of_rows.rays)
+  if (form_factors.method != FormFactorMethod::rays || uneven <= very_uneven)
+    return lit;
+  if (more.rays > of_rows.rays)
     find(more, lit);
+  lit.unevenness = uneven;
   return lit;
+}
+
+/// Rows that had no say in which receivers are divided, with more rays where there are few.
+void trace_last_rows(const NodeProblem& problem, const FormFactorSettings& form_factors, LitCut& lit) {
+  constexpr int times = 16;
+  const FormFactorSettings of_rows =
+      rays_per_row(form_factors, lit.cut.receivers.size(), lit.unevenness, times);
+  lit.cut = traced_anew(problem.light, problem.tree, std::move(lit.cut), of_rows, problem.progress);
+  recompute_direct_of_cut(problem, lit);
 }
 
 /// Enough to tell which receivers have to be divided: what few bounces leave is smooth.
@@ -311,16 +315,16 @@ std::uint64_t bytes_of(const Transport& transport) {
 } // namespace
 
 FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
-                                   double unevenness) {
+                                   double unevenness, int times) {
   // The noise of N rays is sqrt(unevenness) N^-3/4 (gather_noise.h).
   constexpr double few = 512.0, most = 4096.0, even = 2.0;
   constexpr int least = 32;
   const double with_all =
       std::clamp(few * std::pow(unevenness / even, 0.5 / noise_order), few, most);
   const double share =
-      settings.rays * std::min(with_all / double(std::max<std::size_t>(rows, 1)), 1.0);
+      settings.rays * std::min(with_all / double(std::max<std::size_t>(rows, 1)), double(times));
   const auto shared = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
-  settings.rays = std::min(settings.rays, std::max(least, shared));
+  settings.rays = std::min(settings.rays * times, std::max(least, shared));
   return settings;
 }
 
@@ -345,6 +349,9 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
     lit.cut = moved_down(light, tree, std::move(lit.cut), marked, of_rows, progress);
     recompute_direct_of_cut(problem, lit);
   }
+  if (lit.unevenness > 1.0)
+    trace_last_rows(problem, settings.form_factors, lit);
+  result.seconds_gathering += watch.lap();
 
   received = solve_receivers(tree, lit.cut, lit.first, lit.areas, settings.solver);
   result.seconds_solving += watch.lap();

@@ -13,9 +13,10 @@
 // over links between nodes (F_cd, c, d). The system of receivers is solved by any solver (solve.h).
 // Receivers are then divided where
 //
-//   rho max_d |H_d - H_parent| > X (B + B_mean),
+//   rho max_d |H_d - H_parent| > X (min(B, Phi / 256 A_c) + B_mean),
 //
-// d over the parts of the receiver's parent, H with G and the light of the sky. The larger system is solved, until
+// d over the parts of the receiver's parent, H with G and the light of the sky, A_c the receiver's area and
+// Phi = sum A B: the less a part is of all there is, the brighter it may be until its power counts, and not its light alone. The larger system is solved, until
 // no receiver is divided. The difference between children and parent halves per level, hence the factor 2 in the
 // bound: links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
 // The factors of links come from the rays of the receivers' rows and not from pairs of nodes:
@@ -29,7 +30,8 @@
 // If vertices gather the visible light (node_field.h), elements only light others and may be coarser:
 // twenty link errors take the place of one, and D is the mean of the corners (node_light.h).
 // More than 512 rows share the rays of 512 full rows, or of up to 4,096 where first light is uneven;
-// above an unevenness of 8 the rows are traced again with more rays.
+// above an unevenness of 8 the rows are traced again with more rays, and once more when no receiver
+// is divided any longer: rays that chose which are divided are not right in the mean (node_cut.h).
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
 // depends on the light and on X, and on elements only while these are larger than X asks for.
@@ -69,8 +71,9 @@ struct NodeSolution {
 /// The settings for each row of so many that only light others: of more than 512 they share
 /// the rays of so many, or of more, up to 4,096, where light is so uneven that few rays find it.
 /// `unevenness` is the mean of the squares of first light over the square of its mean.
+/// Fewer rows than that have up to `times` as many rays each.
 FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
-                                   double unevenness = 1.0);
+                                   double unevenness = 1.0, int times = 1);
 
 /// With vertices, which then gather what is seen, elements only light others;
 /// without, what they receive is what is seen of them.

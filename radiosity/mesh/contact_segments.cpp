@@ -150,15 +150,16 @@ std::optional<Segment2> contact_of(const std::array<Point3, 3>& face, const Mesh
   const auto [lowest, second, highest] = by_height;
   if (height[highest] <= limit.on || height[lowest] > limit.close)
     return std::nullopt;
+  const auto crossing = [&](std::size_t a, std::size_t b) {
+    return place(glm::mix(face[a], face[b], height[a] / (height[a] - height[b])));
+  };
   if (height[lowest] < -limit.on) {
-    std::array<Vec2, 2> ends{};
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double a = height[k], b = height[(k + 1) % 3];
-      if ((a < 0.0) != (b < 0.0) && count < 2)
-        ends[count++] = place(glm::mix(face[k], face[(k + 1) % 3], a / (a - b)));
-    }
-    return Segment2{ends[0], ends[1]};
+    if (height[second] < 0.0)
+      return Segment2{crossing(lowest, highest), crossing(second, highest)};
+    // An edge that dips into the plane with one end stands close to it up to the other.
+    const bool stands = height[second] <= limit.close && !is_along(face, side);
+    return Segment2{crossing(lowest, highest),
+                    stands ? place(face[second]) : crossing(lowest, second)};
   }
   if (height[second] > limit.close || is_along(face, side))
     return std::nullopt;

@@ -30,6 +30,21 @@ Plane plane_of(const std::array<Point3, 3>& p) {
   return {normal, glm::dot(normal, p[0])};
 }
 
+/// The side of a plane on which corners are more than `far` away, -1 or 1; 0 where none are, or some on each.
+double side_of(const std::array<Point3, 3>& p, const Plane& plane, double far) {
+  double side = 0.0;
+  for (const Point3& x : p) {
+    const double height = signed_distance(plane, x);
+    if (std::abs(height) <= far)
+      continue;
+    const double here = height < 0.0 ? -1.0 : 1.0;
+    if (side * here < 0.0)
+      return 0.0;
+    side = here;
+  }
+  return side;
+}
+
 struct LooseEdge {
   TriangleId triangle = none<TriangleId>;
   VertexId from = none<VertexId>, to = none<VertexId>; ///< welded
@@ -95,33 +110,30 @@ private:
 
   void look_at(const LooseEdge& edge, const Point3& middle, TriangleId other,
                const std::array<Point3, 3>& p, const Plane& plane) {
-    const double height = signed_distance(plane, middle);
-    const double width = std::abs(height);
-    if (edge.triangle == other || width > widest_ || !is_within(p, middle, 1.5 * widest_))
+    if (edge.triangle == other || std::abs(signed_distance(plane, middle)) > widest_ ||
+        !is_within(p, middle, 1.5 * widest_))
       return;
     const Point3 &a = position(scene_, edge.from), &b = position(scene_, edge.to);
-    const double most =
-        std::max({width, std::abs(signed_distance(plane, a)), std::abs(signed_distance(plane, b))});
+    const double at_a = signed_distance(plane, a), at_b = signed_distance(plane, b);
+    const double most = std::max(std::abs(at_a), std::abs(at_b));
     const double least = 4.0 * std::max(precision_.of(edge.triangle), precision_.of(other));
     const double length = glm::distance(a, b);
-    if (most > widest_ || most <= least || length < longer * most)
+    if (most > widest_ || length < longer * most)
       return;
     const auto own_corners = corners(scene_, edge.triangle);
     const Plane own = plane_of(own_corners);
     if (glm::length(glm::cross(own.normal, plane.normal)) < steepest)
       return;
-    // What reaches through the other face leaves no gap.
-    const double side = height < 0.0 ? -1.0 : 1.0;
-    const bool is_on_this_side = std::ranges::any_of(own_corners, [&](const Point3& x) {
-      return side * signed_distance(plane, x) > 2.0 * most;
-    });
-    if (!is_on_this_side)
+    const double side = side_of(own_corners, plane, 2.0 * most);
+    // An end that reaches through the other face leaves no gap, but the other end may.
+    const double width = side * (side > 0.0 ? std::max(at_a, at_b) : std::min(at_a, at_b));
+    if (width <= least)
       return;
     for (const VertexId v : {edge.from, edge.to}) {
       ends_[v].push_back(own);
       ends_[v].push_back(plane);
     }
-    note(edge, other, own, plane, most, length);
+    note(edge, other, own, plane, width, length);
   }
 
   bool is_same(const Plane& a, const Plane& b, const Point3& x) const {

@@ -3,9 +3,10 @@
 // Walls that miss their floor by a fifth of a millimetre let the sky in by a slit of which one ray
 // in many thousands finds the way: the little light there is comes in blots, and is no light that
 // anyone meant. A loose edge of an opaque face, one that no other face shares, makes a gap if the
-// middle of it is beside another opaque face at an angle of at least 30 degrees, on the side where
-// its own face is, at most w = 4e-4 of the radius of the scene's detail (precision.h) away, and
-// both its ends are so near to that face's plane. It is 20 times as long as the gap is wide.
+// middle of it is beside another opaque face at an angle of at least 30 degrees, both its ends are
+// within w = 4e-4 of the radius of the scene's detail (precision.h) of that face's plane, and one at
+// least is on the side where its own face is: where rounding has sunk the other end into the other
+// face, the gap is a wedge. It is 20 times as long as the gap is wide.
 // Its ends move within the plane of their own face into that of the other.
 //
 // Light that came through is left out: at most pi L times length times width, the whole slit seen

@@ -134,7 +134,38 @@ TEST(MirrorWorlds, MirrorsBackToBackDoNotSeeEachOther) {
               double_sided(mirror(0.9)));
   const WorldTree tree = mirror_worlds(mirrors_of(std::move(scene)).set);
   EXPECT_EQ(tree.worlds.size(), 3U);
-  EXPECT_EQ(tree.pruned_unseen, 2U);
+  EXPECT_EQ(tree.considered, 2U);
+}
+
+// A sheet of tiles whose corners are off its plane by a hair, to either side, as floats round them. A world of
+// both its faces would be the room itself, and lamps in front of the mirror would count twice.
+TEST(MirrorWorlds, NorDoRoundedOnes) {
+  constexpr int tiles = 12;
+  const auto corner = [](int i, int j) {
+    const double off = (i + j) % 2 == 0 ? 1e-9 : -1e-9;
+    return Point3(-1.0 + 2.0 * i / tiles, 0.4 + 1.6 * j / tiles, -1.6 + off);
+  };
+  Scene scene;
+  add_polygon(scene, "sheet", {corner(0, 0), corner(tiles, 0), corner(tiles, tiles)},
+              double_sided(mirror(0.9)));
+  Triangle triangle = scene.triangles[0];
+  scene.vertices.clear();
+  scene.triangles.clear();
+  for (int j = 0; j <= tiles; ++j)
+    for (int i = 0; i <= tiles; ++i)
+      scene.vertices.push_back({.position = corner(i, j)});
+  for (std::uint32_t j = 0; j < tiles; ++j)
+    for (std::uint32_t i = 0; i < tiles; ++i) {
+      const std::uint32_t row = tiles + 1, k = j * row + i;
+      triangle.vertices = {VertexId{k}, VertexId{k + 1}, VertexId{k + row + 1}};
+      scene.triangles.push_back(triangle);
+      triangle.vertices = {VertexId{k}, VertexId{k + row + 1}, VertexId{k + row}};
+      scene.triangles.push_back(triangle);
+    }
+  const Material wall = diffuse(0.7);
+  add_room(scene, {-2, 0, -2}, {2, 2.6, 2}, {wall, wall, wall, wall, wall, wall});
+  const WorldTree tree = mirror_worlds(mirrors_of(std::move(scene)).set);
+  EXPECT_EQ(tree.worlds.size(), 3U);
 }
 
 TEST(MirrorWorlds, LimitsLeaveOutTheDeepest) {

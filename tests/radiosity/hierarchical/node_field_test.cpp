@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace meninas::test {
@@ -202,6 +203,68 @@ TEST(NodeField, BrightRoomsKeepTheirLight) {
   const RadiositySolution nodes = solve_pass_one(l->light, settings),
                           rows = solve_pass_one(l->light, by_rows(settings, 7));
   EXPECT_LT(std::abs(difference(*l, nodes, rows, everywhere).mean), 0.02);
+}
+
+/// The mean irradiance of a node, W/m^2.
+double irradiance_of(const LitScene& l, const RadiositySolution& solution, NodeId node) {
+  double light = 0.0, area = 0.0;
+  for (std::size_t e = 0; e < element_count(l.mesh); ++e)
+    if (l.mesh.sides[index(l.mesh.side_of_element[e])].node == node) {
+      light += l.mesh.area[e] * solution.irradiance[e].g;
+      area += l.mesh.area[e];
+    }
+  return light / area;
+}
+
+// A strip of light behind a lip: the nook is a hundred times as bright as the room, and brightest
+// where the lip hides it. A few large receivers in the nook, right to a part of the light there,
+// make the floor 10 % too bright.
+TEST(NodeField, ABrightNookSendsOutNoMoreThanLeavesIt) {
+  Scene scene;
+  const Material wall = diffuse(0.7), white = diffuse(0.85);
+  add_room(scene, {-2, 0, -2}, {2, 2.6, 2}, {wall, wall, diffuse(0.5), diffuse(0.8), wall, wall});
+  add_box(scene, "shelf", {-2, 2.3, -2}, {2, 2.33, -1.75}, white);
+  add_box(scene, "lip", {-2, 2.33, -1.78}, {2, 2.42, -1.75}, white);
+  add_polygon(scene, "strip",
+              {{-1.95, 2.335, -1.85}, {1.95, 2.335, -1.85}, {1.95, 2.335, -1.86}, {-1.95, 2.335, -1.86}},
+              diffuse(0.0, 1000.0));
+  PassOneSettings settings = by_nodes(0.0, 0.01, 512);
+  settings.mesh.target_elements = 4500;
+  const auto l = lit(scene, settings.mesh);
+  const NodeId floor{2};
+  const double nodes = irradiance_of(*l, solve_pass_one(l->light, settings), floor),
+               rows = irradiance_of(*l, solve_pass_one(l->light, by_rows(settings, 7)), floor);
+  EXPECT_NEAR(nodes / rows, 1.0, 0.03);
+}
+
+// A narrow spot on a few elements lights the room. Which receivers are divided depends on whose rays meet it:
+// were those rays kept, light would be lost (a third of it here). Whatever is emitted is absorbed in the end.
+TEST(NodeField, NarrowSpotsLightTheRoomAsTheyShould) {
+  Scene scene;
+  const Material wall = diffuse(0.7);
+  add_room(scene, {-2, 0, -2}, {2, 2.6, 2}, {wall, wall, wall, wall, wall, wall});
+  PunctualLight spot;
+  spot.kind = PunctualKind::spot;
+  spot.position = {0.3, 1.2, 1.5};
+  spot.direction = glm::normalize(Vec3(-0.1, 0.03, -1.0));
+  spot.intensity = Rgb(100.0);
+  spot.inner_cone = 0.02;
+  spot.outer_cone = 0.05;
+  scene.lights.push_back(spot);
+  PassOneSettings settings = by_nodes(0.0, 0.02, 128);
+  settings.mesh.target_elements = 4500;
+  const auto l = lit(scene, settings.mesh);
+  // W: I int a^2 dw, a = (cos theta - cos outer) / (cos inner - cos outer) from 0 to 1 (KHR_lights_punctual).
+  const double inner = std::cos(spot.inner_cone), outer = std::cos(spot.outer_cone);
+  const double emitted = 100.0 * 2.0 * std::numbers::pi * ((1.0 - inner) + (inner - outer) / 3.0);
+  for (const std::uint32_t seed : {0U, 3U}) {
+    settings.form_factors.seed = settings.direct.seed = seed;
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
+    double absorbed = 0.0;
+    for (std::size_t e = 0; e < element_count(l->mesh); ++e)
+      absorbed += 0.3 * l->mesh.area[e] * solution.irradiance[e].g;
+    EXPECT_NEAR(absorbed / emitted, 1.0, 0.08) << seed;
+  }
 }
 
 /// Of what the indirect light of a and b differs by at vertices,

@@ -24,14 +24,21 @@ std::vector<Point3> turned(const std::vector<Point3>& corners) {
   return {corners.rbegin(), corners.rend()};
 }
 
-/// A room with a lamp at its left, which a wall divides that long in x below, and leans by `lean`
-/// from bottom to top: no light comes to its right. No thickness: a sheet.
-Scene two_rooms(double x, double thickness, double lean, double hover) {
+const Material plaster = diffuse(0.7);
+
+/// A room with a lamp at its left.
+Scene lit_room() {
   Scene scene;
-  const Material plaster = diffuse(0.7);
   add_room(scene, Point3(0.0), room_size, {plaster, plaster, plaster, plaster, plaster, plaster});
   add_polygon(scene, "lamp", {{0.3, 2.3, 1}, {1.0, 2.3, 1}, {1.0, 2.3, 2}, {0.3, 2.3, 2}},
               diffuse(0.0, 10.0));
+  return scene;
+}
+
+/// That room, which a wall divides that long in x below, and leans by `lean`
+/// from bottom to top: no light comes to its right. No thickness: a sheet.
+Scene two_rooms(double x, double thickness, double lean, double hover) {
+  Scene scene = lit_room();
   const double top = room_size.y - hover;
   const auto across = [&](double at) {
     return std::vector<Point3>{{at, 0, 0}, {at, 0, 3}, {at + lean, top, 3}, {at + lean, top, 0}};
@@ -178,6 +185,23 @@ TEST(ContactLeaks, AWallThatEndsAHairBelowTheCeilingLetsPassNoMoreThanItsGap) {
       SCOPED_TRACE(testing::Message() << "thickness " << thickness);
       const BothSides found = light_of(two_rooms(wall_x, thickness, 0.0, gap), 0.3, cut);
       EXPECT_LT(found.dark, 4.0 * gap / room_size.y * found.lit);
+    }
+}
+
+// As the integers of a file round it: one end of the foot in the floor, the other a hair above it.
+TEST(ContactLeaks, NorUnderABoxOfWhichOneEndIsSunkIntoTheFloor) {
+  for (const double hair : {2e-5, 1e-4})
+    for (const double thickness : {0.01, 0.2}) {
+      SCOPED_TRACE(testing::Message() << "thickness " << thickness << " hair " << hair);
+      Scene scene = lit_room();
+      const auto others = static_cast<std::ptrdiff_t>(scene.vertices.size());
+      add_box(scene, "box", {wall_x, 0, 0}, {wall_x + thickness, room_size.y, room_size.z}, plaster);
+      for (auto vertex = scene.vertices.begin() + others; vertex != scene.vertices.end(); ++vertex)
+        vertex->position.y += vertex->position.z > 1.5 ? hair : -hair;
+      // A slit that is a hair high lets pass what meets it.
+      const BothSides found = light_of(scene, 0.3, MeshCut::hierarchical);
+      EXPECT_LT(found.dark, 4.0 * hair / room_size.y * found.lit);
+      EXPECT_LT(found.dark_field, 4.0 * hair / room_size.y * found.lit);
     }
 }
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace meninas::test {
 namespace {
 
@@ -89,6 +91,22 @@ TEST(HairlineGaps, AreNotWhereThingsMeetOrPassThroughOrLieParallel) {
               {{-0.5, 1, -1.9998}, {0.5, 1, -1.9998}, {0.5, 2, -1.9998}, {-0.5, 2, -1.9998}},
               diffuse(0.3));
   EXPECT_TRUE(close_hairline_gaps(picture).empty());
+}
+
+// As the integers of a file round it: one end of the foot a little too high, the other in the floor.
+TEST(HairlineGaps, AreWedgesWhereOneEndOfAFootIsInTheFloor) {
+  for (const double deeper : {1e-4, 3e-4}) {
+    Scene scene = room_with_gaps(0.0);
+    const double high = 1e-4, low = -deeper;
+    add_polygon(scene, "partition", {{0, low, -2}, {0, high, 2}, {0, 2.6, 2}, {0, 2.6, -2}},
+                double_sided(diffuse(0.7)));
+    const auto joints = close_hairline_gaps(scene);
+    ASSERT_EQ(joints.size(), 1u) << deeper;
+    EXPECT_NEAR(joints[0].width, high, 1e-9);
+    for (const Vertex& vertex : scene.vertices)
+      EXPECT_TRUE(std::abs(vertex.position.y) < 1e-9 || std::abs(vertex.position.y - 2.6) < 1e-9)
+          << vertex.position.y;
+  }
 }
 
 } // namespace
