@@ -35,6 +35,14 @@ Escapes<Value> rows_that_lose_light(const LinearSystem<Value>& system) {
   return escapes;
 }
 
+template <typename Value>
+Value minimum(const std::vector<Value>& x) {
+  Value least(0.0);
+  for (const Value& value : x)
+    least = glm::min(least, value);
+  return least;
+}
+
 } // namespace
 
 template <typename Value>
@@ -117,10 +125,10 @@ Value amplification_bound(const LinearSystem<Value>& system, int max_iterations)
     return Value(enough ? 0.0 : 1.0);
   });
 
-  const Value left = maximum_norm(residual_of(ones, g)), size = maximum_norm(g);
+  const Value left = maximum_norm(residual_of(ones, g)), size = maximum_norm(g), least = minimum(g);
   Value bound(0.0);
   for (int band = 0; band < channel_count<Value>; ++band)
-    channel(bound, band) = channel(left, band) < 1.0
+    channel(bound, band) = channel(left, band) < 1.0 && channel(least, band) >= 0.0
                                ? channel(size, band) / (1.0 - channel(left, band))
                                : std::numeric_limits<double>::infinity();
   return bound;

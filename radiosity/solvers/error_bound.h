@@ -6,6 +6,10 @@
 // For any approximation g_k with the residual q = 1 - (1 - rho T) g_k,
 //   G = ||g_k + (1 - rho T)^-1 q|| <= ||g_k|| + G ||q||,   so   G <= ||g_k|| / (1 - ||q||)   where ||q|| < 1.
 // The bound is sharp, and what is left of it is known: G itself is at least ||g_k|| / (1 + ||q||).
+// The series ends only where rho T loses more than it returns on every way round. A positive g with ||q|| < 1 says so:
+// (1 - rho T) g > 0 with g > 0 makes 1 - rho T an M-matrix (Berman and Plemmons 1994, ch. 6), and only then has it such a
+// g. Rows of few rays to coats may gather more than all there is, and together more than is absorbed: g then is
+// negative somewhere and there is no bound.
 // Only rows that light reaches count, with 1 = 0 elsewhere: in the others B, B_k and r_k are 0,
 // and g with them. (The inside of a closed white shell would make G infinite, and nobody sees it.)
 #pragma once
@@ -19,7 +23,7 @@ namespace meninas {
 template <typename Value>
 std::vector<Value> lit_rows(const LinearSystem<Value>& system);
 
-/// G by channel, at most a quarter too large; infinite where no bound was found in so many iterations.
+/// G by channel, at most a quarter too large; infinite where no bound was found in so many iterations, or none is.
 template <typename Value>
 Value amplification_bound(const LinearSystem<Value>& system, int max_iterations);
 
