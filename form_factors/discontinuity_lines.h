@@ -31,6 +31,7 @@ std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers);
 struct LineLimits {
   bool by_mirrors;       ///< what is seen by way of one of the view's mirrors is looked at as well
   std::size_t max_lines; ///< where there are more to draw a part of them is, or none
+  std::size_t max_parts; ///< of the face: a face in as many is cut no further
 };
 void cut_at_discontinuity_lines(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,

@@ -84,11 +84,16 @@ private:
     if (view_.blockers.size() < max_lines)
       edges = edges_of(view_.blockers);
     std::vector<Region> regions;
+    // All regions are split once, so each has five times the points of the rule. The faces share what there is; a part
+    // makes two triangles, mostly.
+    std::size_t left = settings_.max_points / (5 * radon.size());
     for (std::size_t f = 0; f < from_.size(); ++f) {
       if (!needs_points(f))
         continue;
       std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_discontinuity_lines(parts, from_[f], view_, edges, clear_.known[f], {uses_mirrors(), max_lines});
+      cut_at_discontinuity_lines(parts, from_[f], view_, edges, clear_.known[f],
+                                 {uses_mirrors(), max_lines, left / (2 * (from_.size() - f))});
+      const std::size_t before = regions.size();
       for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;
@@ -97,6 +102,7 @@ private:
           region.area = area_of(region.corners);
           regions.push_back(std::move(region));
         }
+      left -= std::min(left, regions.size() - before);
     }
     return regions;
   }

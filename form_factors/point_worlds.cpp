@@ -151,13 +151,13 @@ private:
 
   void visit(const Station& station) {
     entered_.push_back({station.image, station.depth, station.throughput});
-    const auto obstacles = obstacles_of(station);
-    add_targets(station, obstacles);
+    find_obstacles(station);
+    add_targets(station);
     if (station.depth >= settings_.max_depth)
       return;
     for (std::uint32_t m = 0; m < view_.mirrors.mirrors.size(); ++m)
       if (static_cast<MirrorId>(m) != station.mirror)
-        enter(station, static_cast<MirrorId>(m), obstacles);
+        enter(station, static_cast<MirrorId>(m));
   }
 
   /// Whether a sphere of unfolded space may be met by light on this leg:
@@ -189,8 +189,8 @@ private:
 
   /// The scene as it stands on this leg, as far as it can be met,
   /// cut off at the mirror the leg leaves.
-  std::vector<Obstacle> obstacles_of(const Station& station) const {
-    std::vector<Obstacle> obstacles;
+  void find_obstacles(const Station& station) {
+    obstacles_.clear();
     for (const Face& face : view_.blockers) {
       if (face.plane_class == station.plane_class)
         continue;
@@ -203,38 +203,36 @@ private:
       if (station.depth > 0)
         clip_in_place(image, origin_of(station.plane), -station.plane.normal);
       if (!image.empty())
-        obstacles.push_back(
+        obstacles_.push_back(
             {image, face.plane_class, appearance_of(point_.x, centre, face.radius)});
     }
-    return obstacles;
   }
 
   /// Appends the parts of a polygon of this world, in unfolded space, that x sees.
   void append_visible(const Station& station, const ConvexPolygon& polygon, const Plane& plane,
-                      PlaneId plane_class, const std::vector<Obstacle>& obstacles,
-                      std::vector<ConvexPolygon>& visible) const {
+                      PlaneId plane_class) {
     ConvexPolygon above = clip(polygon, point_.x, point_.normal);
     if (station.depth > 0)
       clip_in_place(above, origin_of(station.plane), -station.plane.normal);
     if (above.empty())
       return;
-    std::vector<ConvexPolygon> parts;
+    parts_.clear();
     if (station.depth == 0)
-      parts.push_back(above);
+      parts_.push_back(above);
     for (const auto& opening : station.openings) {
       const ConvexPolygon part = clip_to_cone(above, point_.x, opening);
       if (!part.empty())
-        parts.push_back(part);
+        parts_.push_back(part);
     }
     const Appearance ball = appearance_of(point_.x, above);
-    for (const auto& obstacle : obstacles) {
-      if (parts.empty())
+    for (const auto& obstacle : obstacles_) {
+      if (parts_.empty())
         break;
       if (obstacle.plane_class == plane_class || !may_hide(obstacle.ball, ball))
         continue;
-      subtract_cone(parts, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
+      subtract_cone(parts_, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
     }
-    visible.insert(visible.end(), parts.begin(), parts.end());
+    visible_.insert(visible_.end(), parts_.begin(), parts_.end());
   }
 
   double factor_of(const std::vector<ConvexPolygon>& parts) const {
@@ -244,7 +242,7 @@ private:
     return sum;
   }
 
-  void add_targets(const Station& station, const std::vector<Obstacle>& obstacles) {
+  void add_targets(const Station& station) {
     for (std::size_t t = 0; t < view_.targets.size(); ++t) {
       if (station.depth == 0 && !known_.empty() && known_[t] != 0)
         continue;
@@ -258,17 +256,16 @@ private:
       const Plane plane = apply(station.image, target.plane);
       if (signed_distance(plane, point_.x) <= view_.tolerance)
         continue;
-      std::vector<ConvexPolygon> visible;
-      append_visible(station, apply(station.image, target.polygon), plane, target.plane_class,
-                     obstacles, visible);
-      const double factor = factor_of(visible);
+      visible_.clear();
+      append_visible(station, apply(station.image, target.polygon), plane, target.plane_class);
+      const double factor = factor_of(visible_);
       if (factor > 0.0)
         result_.shares.push_back({station.world, view_.groups[t], factor});
     }
   }
 
   /// Goes on behind a mirror, unless nothing that matters can come from there.
-  void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
+  void enter(const Station& station, MirrorId id) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
     // Nor does it meet a mirror there: two reflections in one plane would
     // let it pass straight through a sheet that mirrors on both sides.
@@ -280,15 +277,14 @@ private:
     const double throughput = mean_of(station.throughput * mirror.reflectance);
     if (throughput <= 0.0)
       return;
-    std::vector<ConvexPolygon> openings;
+    visible_.clear();
     for (const auto& part : mirror.window)
-      append_visible(station, apply(station.image, part), plane, mirror.plane_class, obstacles,
-                     openings);
-    const double bound = throughput * factor_of(openings);
+      append_visible(station, apply(station.image, part), plane, mirror.plane_class);
+    const double bound = throughput * factor_of(visible_);
     if (bound <= 0.0)
       return;
     waiting_bound_ += bound;
-    waiting_.push_back({bound, station.world, id, PackedPolygons(openings)});
+    waiting_.push_back({bound, station.world, id, PackedPolygons(visible_)});
     std::push_heap(waiting_.begin(), waiting_.end(), by_bound);
   }
 
@@ -300,6 +296,9 @@ private:
   std::vector<Waiting> waiting_; ///< a heap: the largest bound first
   double waiting_bound_ = 0.0;   ///< sum over those waiting
   WalkResult result_;
+  // Of one station or polygon at a time, and made once: a polygon has room for many corners.
+  std::vector<Obstacle> obstacles_;
+  std::vector<ConvexPolygon> parts_, visible_;
 };
 
 } // namespace

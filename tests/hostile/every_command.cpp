@@ -146,10 +146,15 @@ void draw_reference(const Scene& scene, const Camera& camera) {
     require(glm::compMin(variance) >= 0.0F, "a variance of the reference is no number");
 }
 
-void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, Random& random) {
+void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, const Effort& effort, Random& random) {
   NodeFactorSettings settings;
   settings.method = one_of(random, std::array{NodeFactorMethod::analytic, NodeFactorMethod::rays,
                                               NodeFactorMethod::hemicube});
+  // What a point sees past hundreds of pairs of faces, in each of tens of worlds, takes milliseconds.
+  const bool many_pairs = scene.triangles.size() > effort.max_drawn_triangles / 4 &&
+                          std::ranges::any_of(scene.materials, is_mirror);
+  if (many_pairs && settings.method == NodeFactorMethod::analytic)
+    settings.method = NodeFactorMethod::rays;
   settings.accuracy = 0.05;
   settings.rays = 1 << 10;
   settings.resolution = 16;
@@ -179,7 +184,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
   // Between mirrors of reflectance 0.99 a ray is followed a thousand times.
   chosen.render.diffuse.points.rays = 16;
   chosen.render.diffuse.direct.penumbra_rays = 16;
-  // Exact rows of some hundred elements take minutes, by design: here they need no more digits than a test of laws.
+  // The laws that are tested hold at any accuracy.
   chosen.pass_one.form_factors.accuracy = 0.05;
   const auto prepared = prepare_scene(std::move(scene), chosen.pass_one);
   const Scene& there = prepared->scene;
@@ -216,7 +221,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
     draw_reference(there, camera);
   if (happens(random, 0.3)) {
     try {
-      find_form_factors(there, prepared->surfaces, random);
+      find_form_factors(there, prepared->surfaces, effort, random);
     } catch (const UsageError&) {
       // A node of mirrors alone sends nothing.
     }
@@ -230,8 +235,10 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   // Exact form factors by way of many mirrors take minutes, by design.
   const bool exact = happens(random, 0.1) && std::ranges::none_of(scene.materials, is_mirror);
   if (exact && scene.triangles.size() <= effort.max_drawn_triangles / 4 &&
-      settings.mesh == MeshCut::uniform)
+      settings.mesh == MeshCut::uniform) {
     settings.form_factors = FormFactorMethod::analytic;
+    settings.elements = 20; // its time grows with their square
+  }
   // `render` refuses direct light beside a field that does not tell it apart.
   if (settings.diffuse == DiffuseTerm::direct && !tells_light_apart(settings))
     settings.diffuse = DiffuseTerm::interpolated;
