@@ -12,11 +12,11 @@ namespace meninas {
 
 namespace {
 
-Point3 centre_of(const ConvexPolygon& polygon) {
+Point3 centre_of(std::span<const Point3> vertices) {
   Point3 sum(0.0);
-  for (const auto& vertex : polygon.span())
+  for (const auto& vertex : vertices)
     sum += vertex;
-  return sum / static_cast<double>(std::max<std::size_t>(polygon.size, 1));
+  return sum / static_cast<double>(std::max<std::size_t>(vertices.size(), 1));
 }
 
 double power_of(const Emitter& emitter) {
@@ -61,7 +61,7 @@ struct Builder {
       node.power += power;
       weighted += power * (centres[e] - near);
       normals += emitter.plane.normal;
-      for (const auto& vertex : emitter.polygon.span()) {
+      for (const auto& vertex : emitter.corners) {
         low = glm::min(low, vertex);
         high = glm::max(high, vertex);
       }
@@ -74,7 +74,7 @@ struct Builder {
       node.axis = normals / length;
     for (const auto e : range(first, count)) {
       node.cos_spread = std::min(node.cos_spread, glm::dot(node.axis, emitters[e].plane.normal));
-      for (const auto& vertex : emitters[e].polygon.span())
+      for (const auto& vertex : emitters[e].corners)
         node.radius = std::max(node.radius, glm::distance(vertex, node.centre));
     }
     return node;
@@ -123,7 +123,7 @@ LightTree make_emitter_tree(std::span<const Emitter> emitters) {
     return {};
   Builder builder{emitters, {}, {}};
   for (const auto& emitter : emitters)
-    builder.centres.push_back(centre_of(emitter.polygon));
+    builder.centres.push_back(centre_of(emitter.corners));
   builder.tree.order.resize(emitters.size());
   std::iota(builder.tree.order.begin(), builder.tree.order.end(), 0U);
   builder.split(0, static_cast<std::uint32_t>(emitters.size()));

@@ -26,8 +26,8 @@ inline constexpr std::uint32_t no_area_light = std::numeric_limits<std::uint32_t
 
 /// One emitting face, the front or the back of a patch; or an opening, or an area light, which are none.
 struct Emitter {
-  ConvexPolygon polygon; ///< counter-clockwise seen from the side that emits
-  Plane plane;           ///< normal towards that side
+  std::vector<Point3> corners; ///< of a convex polygon, counter-clockwise seen from the side that emits
+  Plane plane; ///< normal towards that side
   PlaneId plane_class = none<PlaneId>;
   Rgb radiosity{0.0}; ///< E = pi L
   double area = 0.0;

@@ -187,7 +187,7 @@ struct Chooser {
 
   /// By its place in the order of the tree, where its normal lies beside those of the others.
   bool faces(std::size_t place, const Point3& x) const {
-    return glm::dot(tree.flux[place], x - emitters[tree.order[place]].polygon.vertices[0]) > 0.0;
+    return glm::dot(tree.flux[place], x - emitters[tree.order[place]].corners[0]) > 0.0;
   }
 
   /// One of a node's emitters, by power times the cosine towards x from the node's middle; of those that

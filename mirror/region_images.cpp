@@ -129,7 +129,7 @@ struct Classifier {
     Seen seen = before(real ? emitter.plane : apply(world.image, emitter.plane));
     if (seen == Seen::none)
       return seen;
-    ConvexPolygon polygon = emitter.polygon;
+    ConvexPolygon polygon(emitter.corners);
     if (!real)
       for (std::size_t k = 0; k < polygon.size; ++k)
         polygon.vertices[k] = apply(world.image, polygon.vertices[k]);

@@ -49,7 +49,8 @@ void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& se
 }
 
 /// Where a polygon of the real room appears.
-static ConvexPolygon image_of(const ConvexPolygon& polygon, const MirrorWorld& world) {
+static ConvexPolygon image_of(std::span<const Point3> corners, const MirrorWorld& world) {
+  const ConvexPolygon polygon(corners);
   return world.depth > 0 ? apply(world.image, polygon) : polygon;
 }
 
@@ -65,7 +66,7 @@ void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std:
 
   // The image is cut by the horizon, by the last mirror's plane,
   // and by each visible part of the last window.
-  ConvexPolygon image = image_of(e.polygon, world);
+  ConvexPolygon image = image_of(e.corners, world);
   // An emitter in the plane of the last mirror sends no light to it:
   // the back of a sheet would shine forward through its own front.
   const auto is_in_mirror = [&](const Point3& p) {
@@ -93,7 +94,7 @@ void add_whole_image(const WorldTree& tree, std::span<const Emitter> emitters, W
   const MirrorWorld& world = tree.worlds[index(id)];
   const Emitter& e = emitters[emitter];
   const Plane plane = world.depth == 0 ? e.plane : apply(world.image, e.plane);
-  lights.push_back({emitter, id, image_of(e.polygon, world), plane.normal, 1.0});
+  lights.push_back({emitter, id, image_of(e.corners, world), plane.normal, 1.0});
 }
 
 void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,

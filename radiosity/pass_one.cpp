@@ -132,7 +132,7 @@ RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,
     return darkness(light, settings);
 
   // X = rho (D + G) + rho T X on the cut (Eq. 1); from it B and H on elements, and H at vertices.
-  ReflectedLight solved = reflected_light(*light, settings, progress, watch);
+  ReflectedLight solved = reflected_light(*light, settings, progress, watch, seen.elements);
   return solution_from(light, settings, std::move(solved), progress, seen);
 }
 

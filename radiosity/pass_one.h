@@ -58,7 +58,9 @@ struct SeenElements {
 
 /// Pass one for one view: elements that it does not show are less exact, and take less time.
 /// Light is gathered twice (hierarchical/node_field.h). The first gathering covers the whole scene and gives the
-/// light that elements exchange, as exactly as without a view. The second, with more rays and smaller nodes,
+/// light that elements exchange, as exactly as without a view but for direct light of many lamps: at vertices of no
+/// seen element at most DirectSettings::images_in_element images tell it, as at an element's points, and beside
+/// penumbrae no more samples than elsewhere. The second, with more rays and smaller nodes,
 /// covers seen elements only. Shadow edges are refined where pass two reads direct light from the field.
 /// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering or of
 /// the solver.

@@ -23,11 +23,17 @@ struct Watched {
   double seconds = 0.0;
 };
 
+/// The area of every element on which nothing stands, m^2.
+std::vector<double> exposed_areas(const ElementMesh& mesh, const std::vector<float>& exposed) {
+  std::vector<double> area = mesh.area;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] *= double{exposed[i]};
+  return area;
+}
+
 /// Shows the watch the field there is so far: H = D + G + what has been shot.
 ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
-  std::vector<double> area = watched.light.mesh.area;
-  for (std::size_t i = 0; i < area.size(); ++i)
-    area[i] *= double{watched.exposed[i]};
+  std::vector<double> area = exposed_areas(watched.light.mesh, watched.exposed);
   const auto power_of = [&](const std::vector<Rgb>& light, const std::vector<double>& areas) {
     double power = 0.0;
     for (std::size_t i = 0; i < areas.size(); ++i)
@@ -77,6 +83,8 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
     plan = {make_shooting_blocks(light.mesh, factors.exposed), shown(watched, watch)};
   else if (settings.solver.method == SolverMethod::jacobi && watch.every > 0)
     plan.watch = shown(watched, watch);
+  const std::vector<double> areas = exposed_areas(light.mesh, factors.exposed);
+  plan.areas = areas;
   if (watch.before_shots && plan.watch.look)
     plan.watch.look({0, std::vector<Rgb>(solved.first.source.size(), Rgb(0.0)), solved.first.source});
   solved.solver =
@@ -121,13 +129,13 @@ ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings
 }
 
 ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings& settings,
-                                  const Progress& progress) {
+                                  const Progress& progress, std::span<const std::uint8_t> seen) {
   const bool vertices_gather = gathers_by_nodes(settings);
   Stopwatch watch;
   std::optional<LitVertices> vertices;
   if (vertices_gather)
-    vertices =
-        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation, progress});
+    vertices = lit_vertices(
+        light, {settings.form_factors, settings.direct, settings.interpolation, progress, seen});
   const double lighting = watch.lap();
   NodeSolution nodes = solve_by_nodes(
       light, {settings.form_factors, settings.direct, settings.hierarchical, settings.solver},
@@ -150,11 +158,12 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
 }
 
 ReflectedLight reflected_light(const LightScene& light, const PassOneSettings& settings,
-                               const Progress& progress, const PassOneWatch& watch) {
+                               const Progress& progress, const PassOneWatch& watch,
+                               std::span<const std::uint8_t> seen) {
   if (shoots_rays(settings, element_count(light.mesh)))
     return reflected_by_shots(light, settings, progress, watch);
   if (settings.cut == MeshCut::hierarchical)
-    return reflected_by_nodes(light, settings, progress);
+    return reflected_by_nodes(light, settings, progress, seen);
   Stopwatch stopwatch;
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
   const double seconds = stopwatch.lap();

@@ -41,13 +41,18 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
 
 /// In the way that the settings ask for: shots where there are too many elements for rows (shoots_rays), nodes on a
 /// hierarchical cut, else rows.
+/// `seen` as of reflected_by_nodes().
 ReflectedLight reflected_light(const LightScene& light, const PassOneSettings& settings,
-                               const Progress& progress, const PassOneWatch& watch);
+                               const Progress& progress, const PassOneWatch& watch,
+                               std::span<const std::uint8_t> seen = {});
 
 ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings& settings,
                                   const Progress& progress, const PassOneWatch& watch);
 
+/// `seen` by ElementId (SeenElements); empty: every one is. Direct light at vertices of none that is seen is that
+/// of fewer emitters' images: DirectSettings::images_in_element.
 ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings& settings,
-                                  const Progress& progress);
+                                  const Progress& progress,
+                                  std::span<const std::uint8_t> seen = {});
 
 } // namespace meninas

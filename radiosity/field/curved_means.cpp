@@ -20,7 +20,7 @@ void add_at(const ElementMesh& mesh, const VertexEdges& edges, std::span<const g
   const Vec3 to_a = mesh.vertices[a] - mesh.vertices[v];
   for (const std::uint32_t b : edges.of(v))
     if (are_in_line(to_a, mesh.vertices[b] - mesh.vertices[v])) {
-      curvature.sum += glm::dot(to_a, to_a) * Rgb(second_derivative(mesh, values, v, a, b));
+      curvature.sum += glm::dot(to_a, to_a) * second_derivative(mesh, values, v, a, b);
       ++curvature.ends;
       return;
     }

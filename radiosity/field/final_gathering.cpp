@@ -260,9 +260,16 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
 }
 
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
+  // The mean over an element is that of four corners, as it is that of four and more points of its own.
+  const DirectSettings& all_images = source.gathering.direct;
+  DirectSettings few_images = all_images;
+  few_images.images = std::min(all_images.images, all_images.images_in_element);
   light_each(source, {VertexState::unknown, VertexState::direct_only, {}, level}, found,
              [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
-               return {direct_light_at(source.gathering, found.receivers[v], seed, work), {}};
+               return {direct_light_by(source.gathering,
+                                       is_seen(source, v) ? all_images : few_images,
+                                       found.receivers[v], seed, work),
+                       {}};
              });
   resample_near_penumbrae(source, level, found);
   cover_shut_in(source, found);

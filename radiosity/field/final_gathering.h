@@ -31,7 +31,7 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexS
 
 /// Direct light only, at the same vertices. Dark vertices beside bright ones are also tested for cover: a
 /// covered one takes its neighbours' light, an open one keeps zero, and confusing the two is visible.
-/// `level` as above.
+/// `level` as above. Vertices that are not seen (VertexSource) take as few images as an element's points do.
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
 
 /// Adds indirect light at vertices that have direct light and are marked, by ElementVertexId.

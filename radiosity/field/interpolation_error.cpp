@@ -9,9 +9,8 @@ namespace meninas {
 
 namespace {
 
-double brightest(const glm::vec3& light) {
-  return std::max(
-      {std::abs(double{light.r}), std::abs(double{light.g}), std::abs(double{light.b})});
+double brightest(const Rgb& light) {
+  return std::max({std::abs(light.r), std::abs(light.g), std::abs(light.b)});
 }
 
 /// The largest |f''| at a vertex, over pairs of its edges.

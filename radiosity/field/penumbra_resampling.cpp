@@ -14,8 +14,9 @@ bool has_light(VertexState state) {
   return state == VertexState::direct_only || state == VertexState::low_clearance || state == VertexState::gathered;
 }
 
-/// Vertices of few samples in one element with one that sees an image in part.
-std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
+/// Seen vertices of few samples in one element with one that sees an image in part.
+std::vector<std::uint32_t> beside_penumbrae(const VertexSource& source,
+                                            const VertexSamples& found) {
   std::vector<std::uint8_t> is_beside(found.states.size(), 0);
   for (const ElementCorners& corners : found.mesh.corners)
     if (std::ranges::any_of(corners, [&](ElementVertexId v) {
@@ -25,7 +26,8 @@ std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
         is_beside[index(v)] = 1;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < is_beside.size(); ++v)
-    if (is_beside[v] != 0 && found.seen[v] == Visibility::uniform && has_light(found.states[v]))
+    if (is_beside[v] != 0 && is_seen(source, v) && found.seen[v] == Visibility::uniform &&
+        has_light(found.states[v]))
       vertices.push_back(v);
   return vertices;
 }
@@ -35,7 +37,7 @@ std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
 void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
   VertexIrradiance& field = found.field;
   for (;;) {
-    const std::vector<std::uint32_t> vertices = beside_penumbrae(found);
+    const std::vector<std::uint32_t> vertices = beside_penumbrae(source, found);
     if (vertices.empty())
       return;
     tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t k) {

@@ -12,7 +12,7 @@
 
 namespace meninas {
 
-/// For vertices that have direct light, alone or with indirect light.
+/// For vertices that have direct light, alone or with indirect light, and are seen: specks elsewhere show nowhere.
 /// `level` tells apart the samples of vertices whose numbers are the same.
 void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, VertexSamples& found);
 

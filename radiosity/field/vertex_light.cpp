@@ -153,22 +153,24 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
   return {indirect, indirect, low ? Clearance::low : Clearance::open, arrived.emission, arrived.hits};
 }
 
-ArrivingLight direct_light_at(const PointGathering& gathering, const Receiver& receiver,
-                                std::uint32_t seed, PointWorkspace& work) {
+ArrivingLight direct_light_by(const PointGathering& gathering, const DirectSettings& settings,
+                              const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
   const ArrivingLight light =
-      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+      direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
   work.direct_by_lamp = work.direct.by_lamp;
   return light;
+}
+
+ArrivingLight direct_light_at(const PointGathering& gathering, const Receiver& receiver,
+                              std::uint32_t seed, PointWorkspace& work) {
+  return direct_light_by(gathering, gathering.direct, receiver, seed, work);
 }
 
 ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
                                     std::uint32_t seed, PointWorkspace& work) {
   DirectSettings settings = gathering.direct;
   settings.penumbra_samples = PenumbraSamples::everywhere;
-  const ArrivingLight light =
-      direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
-  work.direct_by_lamp = work.direct.by_lamp;
-  return light;
+  return direct_light_by(gathering, settings, receiver, seed, work);
 }
 
 } // namespace meninas

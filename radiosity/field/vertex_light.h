@@ -46,7 +46,10 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 
 /// Direct light alone.
 ArrivingLight direct_light_at(const PointGathering& gathering, const Receiver& receiver,
-                                std::uint32_t seed, PointWorkspace& work);
+                              std::uint32_t seed, PointWorkspace& work);
+/// The same by other settings than those of the gathering.
+ArrivingLight direct_light_by(const PointGathering& gathering, const DirectSettings& settings,
+                              const Receiver& receiver, std::uint32_t seed, PointWorkspace& work);
 /// The same with all samples of a penumbra.
 ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
                                     std::uint32_t seed, PointWorkspace& work);

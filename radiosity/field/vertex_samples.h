@@ -74,7 +74,13 @@ struct VertexSource {
   RowCache* kept = nullptr; ///< of gather_at_lit()
   bool keeps_more = false;
   StagePart part = {}; ///< of the run: reported by the vertices that are done
+  std::span<const std::uint8_t> seen = {}; ///< by ElementVertexId; empty: all are
 };
+
+/// Whether the vertex is a corner of a seen element: others only tell how much light elements reflect.
+inline bool is_seen(const VertexSource& source, std::uint32_t vertex) {
+  return source.seen.empty() || source.seen[vertex] != 0;
+}
 
 /// The seed of a vertex's samples. `level` tells apart vertices whose numbers are the same.
 inline std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex,

@@ -9,6 +9,17 @@
 
 namespace meninas {
 
+/// By ElementVertexId, 1: a corner of a seen element; none where all are seen.
+static std::vector<std::uint8_t> corners_of(const ElementMesh& mesh,
+                                            std::span<const std::uint8_t> seen) {
+  std::vector<std::uint8_t> corners(seen.empty() ? 0 : mesh.vertices.size(), 0);
+  for (std::size_t e = 0; e < seen.size(); ++e)
+    if (seen[e] != 0)
+      for (const ElementVertexId v : mesh.corners[e])
+        corners[index(v)] = 1;
+  return corners;
+}
+
 LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
   LitVertices lit{make_samples(light, facets_around(light))};
   if (sends_from_no_face(light))
@@ -16,10 +27,12 @@ LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
   PointWorkspaces workspaces;
   const std::vector<Rgb> none_yet(element_count(light.mesh), Rgb(0.0));
   const PointGathering gathering = gathering_from(light, none_yet, how);
+  const std::vector<std::uint8_t> seen = corners_of(light.mesh, how.seen);
   light_vertices({.irradiance = none_yet,
                   .gathering = gathering,
                   .workspaces = workspaces,
-                  .part = {how.progress, "direct light"}},
+                  .part = {how.progress, "direct light"},
+                  .seen = seen},
                  0, lit.found);
   for (const PointWorkspace& work : workspaces) {
     lit.rays += work.rays;

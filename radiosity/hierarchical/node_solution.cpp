@@ -33,6 +33,14 @@ struct Received {
   Transport links;
 };
 
+/// The area of what is below each receiver, m^2.
+std::vector<double> areas_of_receivers(const NodeCut& cut, const std::vector<double>& areas) {
+  std::vector<double> of_receivers(cut.receivers.size(), 0.0);
+  for (std::uint32_t e = 0; e < areas.size(); ++e)
+    of_receivers[cut.receiver_of_element[e]] += areas[e];
+  return of_receivers;
+}
+
 /// tau_cd, the mean over the elements of c of the sum over those of d.
 TranslucentLinks translucent_links_of_receivers(const NodeCut& cut,
                                                 const TranslucentLinks& elements,
@@ -41,10 +49,9 @@ TranslucentLinks translucent_links_of_receivers(const NodeCut& cut,
   if (elements.empty())
     return links;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Rgb> sums;
-  std::vector<double> area(cut.receivers.size(), 0.0);
+  const std::vector<double> area = areas_of_receivers(cut, areas);
   for (std::uint32_t e = 0; e < areas.size(); ++e) {
     const std::uint32_t c = cut.receiver_of_element[e];
-    area[c] += areas[e];
     for (std::uint32_t k = elements.row_begin[e]; k < elements.row_begin[e + 1]; ++k)
       sums[{c, cut.receiver_of_element[elements.columns[k]]}] +=
           areas[e] * elements.transmittance[k];
@@ -69,7 +76,9 @@ Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLi
   const TranslucentLinks translucent =
       translucent_links_of_receivers(cut, first.translucent, areas);
   const std::vector<Rgb> source = scattered(reflectance, translucent, from_first);
-  received.solver = solve(received.links, source, {reflectance, translucent}, settings);
+  const std::vector<double> of_receivers = areas_of_receivers(cut, areas);
+  received.solver = solve(received.links, source, {reflectance, translucent}, settings,
+                          {.shooters = {}, .watch = {}, .progress = {}, .areas = of_receivers});
   received.irradiance = apply_transport(received.links, received.solver.radiosity);
   for (std::size_t c = 0; c < source.size(); ++c)
     received.irradiance[c] += from_first[c];

@@ -10,8 +10,7 @@ namespace meninas {
 namespace {
 
 /// The mean of the points of a polygon; of its vertices where it has no area.
-Point3 centre_of(const ConvexPolygon& polygon) {
-  const auto vertices = polygon.span();
+Point3 centre_of(std::span<const Point3> vertices) {
   const Vec3 whole = area_vector(vertices);
   const double area2 = glm::dot(whole, whole);
   Point3 mean(0.0);
@@ -43,8 +42,8 @@ struct Builder {
 
   /// Counts places along an edge of the first cluster and across it.
   void set_places(std::span<const std::uint32_t> members) {
-    const ConvexPolygon& first = clusters[members[0]].polygon;
-    const Vec3 edge = first.vertices[1] - first.vertices[0];
+    const std::vector<Point3>& first = clusters[members[0]].corners;
+    const Vec3 edge = first[1] - first[0];
     const std::array<Vec3, 2> axes{edge, glm::cross(clusters[members[0]].plane.normal, edge)};
     double extent = 0.0;
     for (const auto c : members)
@@ -85,7 +84,7 @@ struct Builder {
               ? near + weighted[static_cast<std::size_t>(band)] / node.power[band]
               : node.middle;
     for (const auto c : members)
-      for (const auto& vertex : clusters[c].polygon.span())
+      for (const auto& vertex : clusters[c].corners)
         node.radius = std::max(node.radius, glm::distance(vertex, node.middle));
     return node;
   }
@@ -109,7 +108,7 @@ struct Builder {
     tree.sent.push_back(0.0);
     for (const auto c : tree.order) {
       first_of.push_back(static_cast<std::uint32_t>(tree.triangles.size()));
-      const auto vertices = clusters[c].polygon.span();
+      const std::vector<Point3>& vertices = clusters[c].corners;
       const double brightest = largest(clusters[c].radiosity);
       const Rgb colour = brightest > 0.0 ? clusters[c].radiosity / brightest : Rgb(0.0);
       for (std::size_t k = 2; k < vertices.size(); ++k) {
@@ -152,7 +151,7 @@ std::vector<std::vector<std::uint32_t>> by_plane(std::span<const Emitter> cluste
 ClusterTree make_cluster_tree(std::span<const Emitter> clusters) {
   Builder builder{clusters, {}, std::vector<Place>(clusters.size(), Place(0)), {}};
   for (const auto& cluster : clusters)
-    builder.centres.push_back(centre_of(cluster.polygon));
+    builder.centres.push_back(centre_of(cluster.corners));
   ClusterTree& tree = builder.tree;
   for (const auto& members : by_plane(clusters)) {
     const Emitter& any = clusters[members[0]];

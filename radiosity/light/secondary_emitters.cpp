@@ -127,12 +127,12 @@ Emitter make_emitter(const LightScene& light, const BrightBlock& candidate) {
   if (side.facing == Facing::back)
     std::reverse(corners.begin(), corners.end());
   Emitter emitter;
-  emitter.polygon = ConvexPolygon(corners);
+  emitter.corners = corners;
   emitter.plane = side.plane;
   emitter.plane_class = side.plane_class;
   emitter.coat = side.coat;
   emitter.radiosity = candidate.radiosity;
-  emitter.area = glm::length(area_vector(emitter.polygon.span()));
+  emitter.area = glm::length(area_vector(emitter.corners));
   return emitter;
 }
 

@@ -199,8 +199,12 @@ Rgb transmittance_by_angle(const LightScene& light, const FoldedSegment& segment
   std::vector<GlassCrossing> crossings;
   for (std::size_t k = 0; light.has_glass && k < legs.size(); ++k) {
     glass_crossings(light.rays, legs[k], crossings);
-    for (const GlassCrossing& crossing : crossings)
+    for (const GlassCrossing& crossing : crossings) {
       left *= passed(light, crossing, segment.solids);
+      // Behind a pane that is opaque there, as leaves are within their outline, the others do not matter.
+      if (left == Rgb(0.0))
+        return left;
+    }
   }
   // The last mirror of the chain is met by the last leg but one, and so on.
   std::size_t step = legs.size() - 1;

@@ -279,7 +279,6 @@ void for_each_leaf(const ElementMesh& mesh, std::uint32_t number, std::uint32_t 
 struct CutLeaf {
   CellInRoot in;
   CutCell cell;
-  std::vector<CellLine> lines; ///< counted from 0
 };
 
 /// Regions that are as large as light needs: many small things that stand together would make many times more.
@@ -305,12 +304,12 @@ void cut_leaf(const ElementMesh& mesh, const SurfaceModel& surfaces, const CellI
   std::vector<OpenEdge> edges;
   for (std::size_t k = 0; k < flat.corners.size(); ++k)
     edges.push_back(open_edge(flat, k));
-  CutLeaf leaf{in, {}, {}};
+  CutLeaf leaf{in, {}};
   for (std::size_t k = 0; k < edges.size(); ++k)
     if (edges[k].walled)
       leaf.cell.walled_edges |= static_cast<std::uint8_t>(1U << k);
   if (cut.regions > 1)
-    leaf.lines = lines_of(flat, cut);
+    leaf.cell.lines = lines_of(flat, cut);
   for (std::uint32_t region = 0; region < cut.regions; ++region) {
     CutRegion& added = leaf.cell.regions.emplace_back();
     const RegionOfCut of{cut, region, place};
@@ -326,11 +325,14 @@ struct RootsBySide {
   std::vector<std::uint32_t> roots;
   std::vector<std::size_t> begin; ///< by side of a surface, and the end
 };
-RootsBySide roots_by_side(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+RootsBySide roots_by_side(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                          std::span<const std::uint8_t> wanted) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
   for (std::uint32_t root = 0; root + 1 < mesh.contacts->begin.size(); ++root)
     if (mesh.contacts->begin[root] != mesh.contacts->begin[root + 1])
       sorted.emplace_back(surface_side(mesh, surfaces, mesh.cells[root]), root);
+  if (!wanted.empty())
+    std::erase_if(sorted, [&](const auto& root) { return wanted[root.first] == 0; });
   std::ranges::sort(sorted);
   RootsBySide by_side;
   for (std::size_t k = 0; k < sorted.size(); ++k) {
@@ -360,28 +362,20 @@ std::vector<CutLeaf> cut_leaves_of(const ElementMesh& mesh, const SurfaceModel& 
   return leaves;
 }
 
-/// Appends a leaf; its lines are counted among those of all.
 void append(CutLeaf& leaf, CutCells& cuts) {
-  const auto first = static_cast<std::uint32_t>(cuts.lines.size());
-  if (leaf.cell.regions.size() > 1)
-    leaf.cell.first_line = first;
-  for (CellLine& line : leaf.lines) {
-    for (std::uint32_t& next : line.next)
-      next += (next & CellLine::region) != 0 ? 0 : first;
-    cuts.lines.push_back(line);
-  }
   cuts.of_cell[leaf.in.number] = static_cast<std::uint32_t>(cuts.cells.size());
   cuts.cells.push_back(std::move(leaf.cell));
 }
 
 } // namespace
 
-CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                    std::span<const std::uint8_t> wanted) {
   CutCells cuts;
   if (!mesh.contacts || mesh.contacts->segments.empty())
     return cuts;
   cuts.of_cell.assign(mesh.cells.size(), uncut);
-  const auto [roots, begin] = roots_by_side(mesh, surfaces);
+  const auto [roots, begin] = roots_by_side(mesh, surfaces, wanted);
   std::vector<std::vector<CutLeaf>> of_side(begin.size() - 1);
   tbb::parallel_for(std::size_t{0}, of_side.size(), [&](std::size_t s) {
     of_side[s] = cut_leaves_of(mesh, surfaces,

@@ -23,6 +23,7 @@
 #include "radiosity/mesh/vertex_welder.h"
 
 #include <optional>
+#include <span>
 
 namespace meninas {
 
@@ -40,7 +41,7 @@ struct CutRegion {
 
 struct CutCell {
   std::uint8_t walled_edges = 0; ///< bit k: something stands along edge k
-  std::uint32_t first_line = uncut; ///< in CutCells::lines; `uncut` where there is one region
+  std::vector<CellLine> lines;   ///< counted from 0; none where there is one region
   std::vector<CutRegion> regions;
 };
 
@@ -48,10 +49,11 @@ struct CutCell {
 struct CutCells {
   std::vector<std::uint32_t> of_cell; ///< by CellId; `uncut` where nothing touches. Empty: nowhere
   std::vector<CutCell> cells;
-  std::vector<CellLine> lines;
 };
 
-/// For the cells of a mesh, which need no elements yet.
-CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces);
+/// For the cells of a mesh, which need no elements yet, on those sides of surfaces that are `wanted`: 1 by
+/// surface_side(); empty: all.
+CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                    std::span<const std::uint8_t> wanted = {});
 
 } // namespace meninas

@@ -30,7 +30,14 @@ struct NewElements {
   const MeshBefore* before;
   VertexNumbers& vertices;
   const CutCells& cuts;
+  const std::vector<std::uint8_t>& changed; ///< by surface_side(); empty: all are
 
+  /// The leaf that this one is all the same as, on a side of a surface where no cell has been divided; null if it may not be.
+  const MeshCell* kept(const MeshCell& cell, std::uint32_t number) const {
+    return changed.empty() || changed[surface_side(mesh, surfaces, cell)] != 0
+               ? nullptr
+               : &before->mesh.cells[index(before->cells[number])];
+  }
   /// The cut of a leaf; null where nothing touches it.
   const CutCell* cut(std::uint32_t number) const {
     return cuts.of_cell.empty() || cuts.of_cell[number] == uncut
@@ -113,16 +120,50 @@ void append_element(ElementMesh& mesh, CellId cell, const ElementCorners& corner
   mesh.solid.push_back(1.0F);
 }
 
+/// A leaf has these lines, counted from `first` there.
+void append_lines(ElementMesh& mesh, std::uint32_t number, std::span<const CellLine> lines,
+                  std::uint32_t first) {
+  const auto begin = static_cast<std::uint32_t>(mesh.lines.size());
+  mesh.line_of_cell.resize(mesh.cells.size(), uncut);
+  mesh.line_of_cell[number] = begin;
+  for (CellLine line : lines) {
+    for (std::uint32_t& next : line.next)
+      next = (next & CellLine::region) != 0 ? next : next - first + begin;
+    mesh.lines.push_back(line);
+  }
+}
+
+/// The last element is a region of a cut leaf.
+void append_region(ElementMesh& mesh, const RegionElement& region) {
+  mesh.region_of_element.resize(mesh.area.size(), uncut);
+  mesh.region_of_element.back() = static_cast<std::uint32_t>(mesh.regions.size());
+  mesh.regions.push_back(region);
+}
+
+void set_walled_edges(ElementMesh& mesh, std::uint32_t number, std::uint8_t walled) {
+  if (walled == 0)
+    return;
+  mesh.walled_edges.resize(mesh.cells.size(), 0);
+  mesh.walled_edges[number] = walled;
+}
+
+/// The lines of a leaf, which are in a row from `first` on.
+std::span<const CellLine> lines_from(const ElementMesh& mesh, std::uint32_t first) {
+  std::uint32_t end = first + 1;
+  for (std::uint32_t line = first; line < end; ++line)
+    for (const std::uint32_t next : mesh.lines[line].next)
+      if ((next & CellLine::region) == 0)
+        end = std::max(end, next + 1);
+  return std::span(mesh.lines).subspan(first, end - first);
+}
+
 /// One element for every region of a leaf that something touches.
 void add_regions(const NewElements& to, std::uint32_t number, const CutCell& cut) {
   ElementMesh& mesh = to.mesh;
   MeshCell& cell = mesh.cells[number];
   cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
   cell.element_count = static_cast<std::uint32_t>(cut.regions.size());
-  if (cut.walled_edges != 0) {
-    mesh.walled_edges.resize(mesh.cells.size(), 0);
-    mesh.walled_edges[number] = cut.walled_edges;
-  }
+  set_walled_edges(mesh, number, cut.walled_edges);
   cell.area = 0.0;
   for (const CutRegion& region : cut.regions)
     cell.area += region.element.area_up_to.empty() ? 0.0 : region.element.area_up_to.back();
@@ -130,20 +171,50 @@ void add_regions(const NewElements& to, std::uint32_t number, const CutCell& cut
     const double area =
         region.element.area_up_to.empty() ? 0.0 : region.element.area_up_to.back();
     append_element(mesh, static_cast<CellId>(number), corners_of_region(to, cell, region), area);
-    if (cut.first_line == uncut)
-      continue;
-    mesh.region_of_element.resize(mesh.area.size(), uncut);
-    mesh.region_of_element.back() = static_cast<std::uint32_t>(mesh.regions.size());
-    mesh.regions.push_back(region.element);
+    if (!cut.lines.empty())
+      append_region(mesh, region.element);
   }
-  if (cut.first_line != uncut) {
-    mesh.line_of_cell.resize(mesh.cells.size(), uncut);
-    mesh.line_of_cell[number] = cut.first_line;
+  if (!cut.lines.empty())
+    append_lines(mesh, number, cut.lines, 0);
+}
+
+/// The elements of a leaf as they were, with what something that stands there has made of them.
+void keep_elements(const NewElements& to, std::uint32_t number, const MeshCell& was) {
+  ElementMesh& mesh = to.mesh;
+  const ElementMesh& before = to.before->mesh;
+  const std::uint32_t of_before = index(to.before->cells[number]);
+  MeshCell& cell = mesh.cells[number];
+  cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
+  cell.element_count = was.element_count;
+  cell.area = was.area;
+  if (!before.walled_edges.empty())
+    set_walled_edges(mesh, number, before.walled_edges[of_before]);
+  for (std::uint32_t e = was.first_element; e < was.first_element + was.element_count; ++e) {
+    ElementCorners corners = before.corners[e];
+    for (ElementVertexId& corner : corners) {
+      const std::size_t vertex = index(corner);
+      corner = to.vertices.number_of(corner, before.vertices[vertex], mesh.vertices);
+      if (!is_at_contact(before, vertex))
+        continue;
+      mesh.at_contact.resize(mesh.vertices.size(), 0);
+      mesh.at_contact[index(corner)] = 1;
+    }
+    append_element(mesh, static_cast<CellId>(number), corners, before.area[e]);
+    if (const RegionElement* region = region_of(before, ElementId{e}))
+      append_region(mesh, *region);
+  }
+  if (!before.line_of_cell.empty() && before.line_of_cell[of_before] != uncut) {
+    const std::uint32_t first = before.line_of_cell[of_before];
+    append_lines(mesh, number, lines_from(before, first), first);
   }
 }
 
 void add_element(const NewElements& to, std::uint32_t number) {
   ElementMesh& mesh = to.mesh;
+  if (const MeshCell* was = to.kept(mesh.cells[number], number)) {
+    keep_elements(to, number, *was);
+    return;
+  }
   if (const CutCell* cut = to.cut(number)) {
     add_regions(to, number, *cut);
     return;
@@ -181,6 +252,16 @@ void add_leaves(const NewElements& to, std::uint32_t number) {
   cell.area = area;
   cell.first_element = first;
   cell.element_count = static_cast<std::uint32_t>(mesh.area.size()) - first;
+}
+
+/// By surface_side(): 1 where any cell is new; empty where all are.
+std::vector<std::uint8_t> changed_sides(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                                        const MeshBefore* before) {
+  std::vector<std::uint8_t> changed(before ? 2 * surfaces.surfaces.size() : 0, 0);
+  for (std::size_t number = 0; !changed.empty() && number < mesh.cells.size(); ++number)
+    if (before->cells[number] == none<CellId>)
+      changed[surface_side(mesh, surfaces, mesh.cells[number])] = 1;
+  return changed;
 }
 
 /// By surface_side(): 1 where elements are new, or parts of divided cells. On other surfaces nobody asks
@@ -236,10 +317,11 @@ VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshBefore* before) {
   const std::size_t vertices_before = before ? before->mesh.vertices.size() : 0;
   VertexNumbers vertices(vertex_grain(mesh, surfaces), vertices_before);
-  CutCells cuts = cut_leaves(mesh, surfaces);
+  const std::vector<std::uint8_t> changed = changed_sides(mesh, surfaces, before);
+  const CutCells cuts = cut_leaves(mesh, surfaces, changed);
   if (before)
     place_vertices(mesh, surfaces, *before, cuts, vertices);
-  const NewElements to{mesh, surfaces, before, vertices, cuts};
+  const NewElements to{mesh, surfaces, before, vertices, cuts, changed};
   for (MeshSide& side : mesh.sides) {
     side.first_element = static_cast<std::uint32_t>(mesh.area.size());
     for (std::uint32_t k = 0; k < side.root_count; ++k)
@@ -247,7 +329,6 @@ VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
     side.element_count = static_cast<std::uint32_t>(mesh.area.size()) - side.first_element;
   }
   set_transmittance(mesh);
-  mesh.lines = std::move(cuts.lines);
   if (!mesh.line_of_cell.empty()) {
     mesh.line_of_cell.resize(mesh.cells.size(), uncut);
     mesh.region_of_element.resize(mesh.area.size(), uncut);

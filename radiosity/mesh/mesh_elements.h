@@ -20,6 +20,7 @@ struct MeshBefore {
 /// Numbers the leaves, depth first, and makes their corners, vertices and areas.
 /// Returns the vertices by place: all of them, or of a mesh that was another before
 /// those at corners of divided cells' parts and, on surfaces that have any, on the borders of patches.
+/// Sides of surfaces on which no cell is new keep their elements, and what stands there does not cut them again.
 /// That spares the time, and is the same mesh.
 VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshBefore* before = nullptr);

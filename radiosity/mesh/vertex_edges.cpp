@@ -41,4 +41,13 @@ bool are_in_line(const Vec3& to_a, const Vec3& to_b) {
          along * along > straight * straight * glm::dot(to_a, to_a) * glm::dot(to_b, to_b);
 }
 
+Rgb second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> values, std::size_t v,
+                      std::size_t a, std::size_t b) {
+  const double to_a = glm::distance(mesh.vertices[a], mesh.vertices[v]),
+               to_b = glm::distance(mesh.vertices[b], mesh.vertices[v]);
+  // Floats would not hold slopes of bright light in a tiny scene.
+  const Rgb here(values[v]);
+  return 2.0 / (to_a + to_b) * ((Rgb(values[a]) - here) / to_a + (Rgb(values[b]) - here) / to_b);
+}
+
 } // namespace meninas

@@ -24,16 +24,9 @@ VertexEdges edges_of(const ElementMesh& mesh);
 /// the cosine between them is -0.9 and less.
 bool are_in_line(const Vec3& to_a, const Vec3& to_b);
 
-/// The second derivative at v along two edges that go on, to a and to b.
-template <typename Value>
-Value second_derivative(const ElementMesh& mesh, std::span<const Value> values, std::size_t v,
-                        std::size_t a, std::size_t b) {
-  using Number = typename Value::value_type;
-  const double to_a = glm::distance(mesh.vertices[a], mesh.vertices[v]),
-               to_b = glm::distance(mesh.vertices[b], mesh.vertices[v]);
-  const Value slope = (values[a] - values[v]) / static_cast<Number>(to_a) +
-                      (values[b] - values[v]) / static_cast<Number>(to_b);
-  return slope * static_cast<Number>(2.0 / (to_a + to_b));
-}
+/// The second derivative at v along two edges that go on, to a and to b, in the values' unit over m^2:
+///   f'' = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|).
+Rgb second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> values, std::size_t v,
+                      std::size_t a, std::size_t b);
 
 } // namespace meninas

@@ -20,11 +20,9 @@ bool emits(const MeshSide& side) { return glm::any(glm::greaterThan(side.emissio
 Emitter make_emitter(const MeshSide& side, std::span<const Point3> polygon, const Rgb& radiosity,
                      double area) {
   Emitter emitter;
-  emitter.polygon = ConvexPolygon(polygon);
+  emitter.corners.assign(polygon.begin(), polygon.end());
   if (side.facing == Facing::back)
-    std::reverse(emitter.polygon.vertices.begin(),
-                 emitter.polygon.vertices.begin() +
-                     static_cast<std::ptrdiff_t>(emitter.polygon.size));
+    std::ranges::reverse(emitter.corners);
   emitter.plane = side.plane;
   emitter.plane_class = side.plane_class;
   emitter.radiosity = radiosity;
@@ -108,7 +106,7 @@ static void add_portals(LightScene& light) {
   for (std::uint32_t p = 0; p < light.portals.size(); ++p) {
     const SkyPortal& portal = light.portals[p];
     Emitter emitter;
-    emitter.polygon = portal.polygon;
+    emitter.corners.assign(portal.polygon.span().begin(), portal.polygon.span().end());
     emitter.plane = portal.plane;
     emitter.plane_class = portal.plane_class;
     emitter.radiosity = light.sky == nullptr
@@ -125,7 +123,7 @@ static void add_area_lights(LightScene& light) {
   const std::vector<AreaLight>& lights = light.scene.area_lights;
   for (std::uint32_t k = 0; k < lights.size(); ++k) {
     Emitter emitter;
-    emitter.polygon = ConvexPolygon(lights[k].corners);
+    emitter.corners = lights[k].corners;
     emitter.plane = {lights[k].axis, glm::dot(lights[k].axis, lights[k].corners[0])};
     emitter.radiosity = std::numbers::pi * lights[k].radiance;
     emitter.area = area_of(lights[k]);

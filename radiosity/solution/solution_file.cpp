@@ -57,6 +57,7 @@ json figures_json(const RadiositySolution& solution) {
             {"iterations", solver.iterations},
             {"residual", solver.residual},
             {"error_bound", solver.error_bound},
+            {"relative_error", solver.relative_error},
             {"converged", solver.converged},
             {"residuals", solver.residuals},
             {"channel_residuals", colours_json(solver.channel_residuals)},

@@ -73,6 +73,8 @@ SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
   solver.iterations = whole_in(solve.at("iterations"));
   solver.residual = number_or_infinity(solve.at("residual"));
   solver.error_bound = number_or_infinity(solve.at("error_bound"));
+  if (const auto error = solve.find("relative_error"); error != solve.end()) // earlier files have none
+    solver.relative_error = number_or_infinity(*error);
   solver.converged = solve.at("converged");
   for (const json& residual : solve.at("residuals")) {
     solver.residuals.push_back(number_or_infinity(residual));

@@ -134,10 +134,52 @@ Value amplification_bound(const LinearSystem<Value>& system, int max_iterations)
   return bound;
 }
 
+template <typename Value>
+Value relative_error(const LinearSystem<Value>& system, const std::vector<Value>& x,
+                     std::span<const double> areas) {
+  constexpr int bounces = 4;
+  double area = 0.0;
+  for (const double a : areas)
+    area += a;
+  const auto mean_share = [&](const std::vector<Value>& part) {
+    Value sum(0.0);
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      sum += areas[i] * glm::min(share_of(part[i], x[i]), Value(1.0));
+    return area > 0.0 ? sum / area : Value(0.0);
+  };
+  std::vector<Value> left = residual_of(system, x);
+  for (Value& value : left)
+    value = glm::abs(value);
+  std::vector<Value> sum = left;
+  Value now = mean_share(left), before = now;
+  for (int m = 0; m < bounces; ++m) {
+    left = reflected(system, left);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += left[i];
+    before = now;
+    now = mean_share(left);
+  }
+  // The bounces after these: where they do not decline, there are a hundred.
+  constexpr double slowest = 0.99;
+  Value rest(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    if (channel(now, band) > 0.0) {
+      const double ratio = std::min(channel(now, band) / channel(before, band), slowest);
+      channel(rest, band) = ratio / (1.0 - ratio);
+    }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] += rest * left[i];
+  return mean_share(sum);
+}
+
 template std::vector<Rgb> open_rows(const LinearSystem<Rgb>&);
 template std::vector<double> open_rows(const LinearSystem<double>&);
 template LinearSystem<Rgb> without_traps(LinearSystem<Rgb>, const std::vector<Rgb>&);
 template LinearSystem<double> without_traps(LinearSystem<double>, const std::vector<double>&);
+template Rgb relative_error(const LinearSystem<Rgb>&, const std::vector<Rgb>&,
+                            std::span<const double>);
+template double relative_error(const LinearSystem<double>&, const std::vector<double>&,
+                               std::span<const double>);
 template Rgb contraction(const LinearSystem<Rgb>&);
 template double contraction(const LinearSystem<double>&);
 template std::vector<Rgb> lit_rows(const LinearSystem<Rgb>&);

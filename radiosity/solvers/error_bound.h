@@ -16,6 +16,8 @@
 
 #include "radiosity/transport/linear_system.h"
 
+#include <span>
+
 namespace meninas {
 
 /// By row and channel: 1 where light arrives, directly or from rows where it does;
@@ -26,6 +28,15 @@ std::vector<Value> lit_rows(const LinearSystem<Value>& system);
 /// G by channel, at most a quarter too large; infinite where no bound was found in so many iterations, or none is.
 template <typename Value>
 Value amplification_bound(const LinearSystem<Value>& system, int max_iterations);
+
+/// The mean over area of |e| / B_k, each at most 1, by channel: how far off a place is, whatever shines elsewhere.
+/// As e = r + rho T r + (rho T)^2 r + ..., and neither factor is negative,
+///   |e|  <=  p_0 + p_1 + p_2 + ...,      p_m = (rho T)^m |r|,
+/// of which a few are summed. The rest is an estimate: a geometric series by the ratio of the last two in that mean.
+/// The bound above is relative to the brightest spot, and too wide for walls by as much as they are darker.
+template <typename Value>
+Value relative_error(const LinearSystem<Value>& system, const std::vector<Value>& x,
+                     std::span<const double> areas);
 
 /// ||rho T||: what is left of a change after one bounce, by channel.
 template <typename Value>

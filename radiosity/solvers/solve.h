@@ -14,6 +14,8 @@
 // All stop on one bound of the error (solvers/error_bound.h):
 // with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
+// That norm is of the brightest spot. Where areas are known, all but shots and watched sweeps go on until
+// |B - B_k| / B_k is at most ten tolerances in the mean over area (relative_error()).
 // None returns less than S, and so nothing negative:
 // light only adds to what is there without bounces.
 // In a closed part of the scene that absorbs nothing light would grow without end: that is found out beforehand,

@@ -8,7 +8,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -28,11 +30,12 @@ struct SolverSettings {
   std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
 };
 
-/// The shooters of `progressive`, and its watch.
+/// The shooters of `progressive`, its watch, and what a result is to tell.
 struct ShotPlan {
   Shooters shooters; ///< none: every unknown for itself
   ShotWatch watch;
   Progress progress = {}; ///< told after every iterate, of any method; what it throws ends the solve
+  std::span<const double> areas = {}; ///< of the unknowns, m^2, for the error of the result in the mean; none: it is not found
 };
 
 /// Why a solver stopped.
@@ -50,6 +53,8 @@ struct SolverResult {
   int bands = 3;            ///< solved for: one when everything is grey
   double residual = 0.0;    ///< ||r|| / ||B|| at the end, worst channel
   double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
+  /// The mean over the area of all unknowns of |B - B_k| / B_k, an estimate, worst channel; infinite where it is not known.
+  double relative_error = std::numeric_limits<double>::infinity();
   bool converged = false;
   SolverEnd end = SolverEnd::converged;
   /// Unknowns, or the elements below, with light that nothing absorbs and that cannot leave: they reflect none.

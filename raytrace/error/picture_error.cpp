@@ -355,8 +355,8 @@ PictureError estimate_error(const IrradianceField& coarse, const Camera& camera,
   error.mesh = relative(whole - tail - noise);
   error.mesh_direct = relative(std::clamp(squared.source, 0.0, whole - tail - noise));
   error.pixels = relative(squared.pixels);
-  error.solver = std::min(solver.error_bound, 1.0) * largest_reflected(field) /
-                 (std::numbers::pi * error.mean_radiance);
+  error.solver = std::min(solver.relative_error, std::min(solver.error_bound, 1.0) * largest_reflected(field) /
+                                                     (std::numbers::pi * error.mean_radiance));
   error.total =
       std::sqrt(whole + squared.pixels + std::pow(error.solver * error.mean_radiance, 2.0)) /
       error.mean_radiance;

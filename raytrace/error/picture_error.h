@@ -28,8 +28,8 @@
 // pixels^2 is half the mean square of the change by another draw of all camera rays,
 // at pixels of each number of samples for themselves:
 // where sampling is adaptive, the few that have many have most of the error;
-// and of those rather at edges (noise_choice.h). solver is the solver's bound,
-// for the brightest reflected radiosity, an upper bound; the others are estimates.
+// and of those rather at edges (noise_choice.h). solver is the relative error of the solution in the mean
+// over all surfaces; where that is not known, or is larger, the bound of the brightest spot.
 //
 // A picture that gathers at every hit has the error of the field that it gathers from. There
 // L_1 - L and L_2 - L are the changes when, at some places where its rays land, light is gathered

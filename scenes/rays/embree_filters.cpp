@@ -40,6 +40,19 @@ static void filter_rays(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+static void collect_hits(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *static_cast<const CollectingContext*>(args->context);
+  for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+    const Candidate met = candidate(*args, lane);
+    if (is_hit(context.rule, met))
+      context.hits->push_back({met.triangle, met.distance, RTCHitN_u(args->hit, args->N, lane),
+                               RTCHitN_v(args->hit, args->N, lane),
+                               glm::dot(met.normal, met.direction) < 0.0F});
+    args->valid[lane] = 0;
+  }
+}
+
 void filter_legs(const RTCFilterFunctionNArguments* args) {
   auto& context = *static_cast<LegContext*>(args->context);
   for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
@@ -63,6 +76,14 @@ RayContext make_context(const RayRule& rule, Coherence coherence) {
   RayContext context;
   init_context(context, coherence, filter_rays);
   context.rule = rule;
+  return context;
+}
+
+CollectingContext make_context(const RayRule& rule, std::vector<LaneHit>& hits) {
+  CollectingContext context;
+  init_context(context, Coherence::incoherent, collect_hits);
+  context.rule = rule;
+  context.hits = &hits;
   return context;
 }
 

@@ -4,11 +4,17 @@
 #include "scenes/rays/embree_api.h"
 #include "scenes/rays/hit_rules.h"
 
+#include <vector>
+
 namespace meninas {
 
 /// Embree's context, with the rule that its filter applies.
 struct RayContext : QueryContext {
   RayRule rule;
+};
+/// All hits of one ray by the rule.
+struct CollectingContext : RayContext {
+  std::vector<LaneHit>* hits = nullptr;
 };
 struct LegContext : QueryContext {
   LegJudge judge;
@@ -20,5 +26,7 @@ void filter_legs(const RTCFilterFunctionNArguments* args);
 void filter_holes(const RTCFilterFunctionNArguments* args);
 
 RayContext make_context(const RayRule& rule, Coherence coherence);
+/// Each hit is kept and passed, so that the search goes on to the ray's end.
+CollectingContext make_context(const RayRule& rule, std::vector<LaneHit>& hits);
 
 } // namespace meninas

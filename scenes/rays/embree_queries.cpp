@@ -4,6 +4,7 @@
 #include "scenes/rays/embree_handles.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace meninas {
 
@@ -52,18 +53,36 @@ Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_
   return std::move(query.found);
 }
 
-LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule) {
+static RTCRayHit query_of(const LaneRay& ray) {
   const auto& [origin, direction, near, far, leaving] = ray;
   RTCRayHit query{};
   query.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
                direction.z, 0.0F,     far,      ~0U,  0U,          0U};
   query.hit.primID = no_index;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule) {
+  RTCRayHit query = query_of(ray);
   auto context = make_context(rule, Coherence::incoherent);
   trace(rays.impl().scene.get(), context, query);
   const glm::vec3 normal{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
   return {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v,
-          glm::dot(normal, direction) < 0.0F};
+          glm::dot(normal, ray.direction) < 0.0F};
+}
+
+void trace_all(const RayScene& rays, const LaneRay& ray, const RayRule& rule,
+               std::vector<LaneHit>& hits) {
+  hits.clear();
+  RTCRayHit query = query_of(ray);
+  auto context = make_context(rule, hits);
+  trace(rays.impl().scene.get(), context, query);
+  // Where triangles lie in several boxes of the tree, a search may find one more than once.
+  const auto place = [](const LaneHit& hit) { return std::pair(hit.distance, hit.triangle); };
+  std::ranges::sort(hits, {}, place);
+  const auto again = std::ranges::unique(hits, {}, place);
+  hits.erase(again.begin(), again.end());
 }
 
 } // namespace meninas

@@ -4,9 +4,16 @@
 #include "scenes/rays/embree_scene.h"
 #include "scenes/rays/hit_rules.h"
 
+#include <vector>
+
 namespace meninas {
 
 LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
+
+/// Everything that the ray meets by the rule, nearest first, whatever is before it: one search finds all.
+/// Clears and fills `hits`.
+void trace_all(const RayScene& rays, const LaneRay& ray, const RayRule& rule,
+               std::vector<LaneHit>& hits);
 
 /// The triangles within reach of a point that leaves a plane,
 /// or nearer than `min_reach` times its grain if that is further.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meninas {
 
@@ -41,19 +40,15 @@ void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCros
   LaneRay ray = ray_along(geometry, leg);
   ray.far = 1.0F;
   const RayRule rule{.geometry = &geometry, .leaving = &ray.leaving, .only_glass = true};
+  std::vector<LaneHit> hits;
+  trace_all(rays, ray, rule, hits);
   // A pane that is passed is left as a surface is: nothing in its plane is met again.
-  // Where two meet in an edge the way through it crosses both at one distance,
-  // and then goes on, or the first would be met again.
-  for (float last = -1.0F;; last = ray.near) {
-    const LaneHit hit = trace_one(rays, ray, rule);
-    if (hit.triangle == no_index)
-      return;
-    ray.leaving = geometry.facts[hit.triangle].plane;
-    ray.near = hit.distance > last ? hit.distance
-                                   : std::nextafter(last, std::numeric_limits<float>::infinity());
-    if (ray.leaving == index(leg.arriving))
-      continue;
-    crossings.push_back(crossing_of(geometry, ray, hit));
+  std::uint32_t left = no_index;
+  for (const LaneHit& hit : hits) {
+    const std::uint32_t plane = geometry.facts[hit.triangle].plane;
+    if (plane != left && plane != index(leg.arriving))
+      crossings.push_back(crossing_of(geometry, ray, hit));
+    left = plane;
   }
 }
 

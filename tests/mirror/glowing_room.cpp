@@ -12,7 +12,8 @@ GlowingRoom glowing(Scene scene, const WorldSettings& settings) {
     if (is_mirror(room.scene.materials[index(patch.material)]))
       continue;
     const Surface& surface = room.surfaces.surfaces[index(patch.surface)];
-    room.emitters.push_back({ConvexPolygon(polygon_of(patch)), surface.plane, surface.plane_class,
+    const auto corners = polygon_of(patch);
+    room.emitters.push_back({{corners.begin(), corners.end()}, surface.plane, surface.plane_class,
                              Rgb(1.0), patch.area});
   }
   return room;

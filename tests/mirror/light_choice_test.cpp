@@ -36,8 +36,8 @@ Lamps lamps_in(const std::array<bool, 6>& mirror_walls, std::vector<Emitter> emi
 
 Emitter emitter_of(const std::vector<Point3>& corners, double radiosity) {
   Emitter emitter;
-  emitter.polygon = ConvexPolygon(corners);
-  const Vec3 area = area_vector(emitter.polygon.span());
+  emitter.corners = corners;
+  const Vec3 area = area_vector(emitter.corners);
   emitter.area = glm::length(area);
   emitter.plane.normal = area / emitter.area;
   emitter.plane.offset = glm::dot(emitter.plane.normal, corners[0]);
@@ -129,7 +129,7 @@ TEST(LightTree, NodesHoldTheirEmitters) {
       const Emitter& emitter = emitters[tree.order[k]];
       power += emitter.area * emitter.radiosity.r;
       EXPECT_GE(glm::dot(emitter.plane.normal, node.axis), node.cos_spread - 1e-12);
-      for (const auto& vertex : emitter.polygon.span())
+      for (const auto& vertex : emitter.corners)
         EXPECT_LE(glm::distance(vertex, node.centre), node.radius + 1e-12);
     }
     EXPECT_NEAR(node.power, power, 1e-12 * power);

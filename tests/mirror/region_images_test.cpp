@@ -118,7 +118,7 @@ GlowingRoom with_lamp(GlowingRoom room, double size) {
   const Point3 corner(0.4, 0.8, 0.05);
   const Vec3 x(size, 0.0, 0.0), y(0.0, size, 0.0);
   Emitter& lamp = room.emitters.front();
-  lamp.polygon = ConvexPolygon(std::array{corner, corner + x, corner + x + y, corner + y});
+  lamp.corners = {corner, corner + x, corner + x + y, corner + y};
   lamp.plane = {.normal = {0.0, 0.0, 1.0}, .offset = corner.z};
   room.emitters.resize(1);
   return room;
@@ -184,10 +184,10 @@ TEST(RegionImages, AreThoseOfTheirPointsOfALampBetweenWindowsOfSeveralParts) {
 TEST(RegionImages, LeaveOutWhatIsBehindTheMirror) {
   GlowingRoom room = with_lamp(glowing(room_with_mirrors({true}), {}), 0.02);
   Emitter& lamp = room.emitters.front();
-  for (std::size_t k = 0; k < lamp.polygon.size; ++k)
-    lamp.polygon.vertices[k].x = -0.2;
-  for (std::size_t k = 0; k < lamp.polygon.size; ++k)
-    lamp.polygon.vertices[k].z = 1.0 + (k == 1 || k == 2 ? 0.02 : 0.0);
+  for (std::size_t k = 0; k < lamp.corners.size(); ++k)
+    lamp.corners[k].x = -0.2;
+  for (std::size_t k = 0; k < lamp.corners.size(); ++k)
+    lamp.corners[k].z = 1.0 + (k == 1 || k == 2 ? 0.02 : 0.0);
   lamp.plane = {.normal = {-1.0, 0.0, 0.0}, .offset = 0.2};
   const Cell cell = cell_of(room_size, 1, 2, 2, cells);
   RegionImages images;

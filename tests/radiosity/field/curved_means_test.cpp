@@ -50,6 +50,22 @@ TEST(CurvedMeans, AreExactOfSquares) {
   }
 }
 
+// A wall of a tenth of a micrometre in light of 1e34 W/m^2 has slopes that floats do not hold.
+TEST(CurvedMeans, DoNotDependOnTheScaleOfSceneAndLight) {
+  const auto means_of = [](double size, double light) {
+    Scene scene;
+    add_polygon(scene, "wall", {{0, 0, 0}, {1.5 * size, 0, 0}, {1.5 * size, size, 0}, {0, size, 0}}, diffuse(0.5));
+    const auto l = lit(std::move(scene), {.element_size = 0.25 * size});
+    return curved_means(l->mesh, edges_of(l->mesh), values_of(l->mesh, [&](const Point3& p) {
+                          return light * (3.0 - p.x * p.x / (size * size) + p.y / size);
+                        }));
+  };
+  const std::vector<Rgb> plain = means_of(1.0, 1.0), extreme = means_of(1e-7, 1e34);
+  ASSERT_EQ(extreme.size(), plain.size());
+  for (std::size_t e = 0; e < plain.size(); ++e)
+    EXPECT_NEAR(1e-34 * extreme[e].g, plain[e].g, 1e-5) << e; // values are floats
+}
+
 TEST(CurvedMeans, AreThoseOfCornersInTriangles) {
   const auto l = wall({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const auto values = values_of(l->mesh, [](const Point3& p) { return 1.0 + p.x * p.x; });

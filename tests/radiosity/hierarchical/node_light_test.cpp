@@ -137,6 +137,47 @@ TEST(NodeLight, ShadesAbsorbTheLightThatTheyReceive) {
   EXPECT_NEAR(received / mean_over(*l, alone.irradiance, "shade").g, 1.0, 0.03);
 }
 
+// A ceiling of 20 x 20 lamps above a plate that hides half of the floor, of which one element is seen: its corners have
+// the light they have where all are seen. Others have that of 32 lamps in place of 256, each off by a few per cent,
+// and the mean over a thousand of them is off by a thousandth or so.
+TEST(NodeLight, VerticesThatAreNotSeenTakeFewerImages) {
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
+  add_polygon(scene, "plate", {{0, 0.1, 0}, {0.5, 0.1, 0}, {0.5, 0.1, 1}, {0, 0.1, 1}},
+              double_sided(diffuse(0.0)));
+  constexpr double n = 20.0, size = 0.4 / n;
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) {
+      const double x = i / n, z = k / n;
+      add_polygon(scene, "lamp",
+                  {{x, 0.2, z}, {x + size, 0.2, z}, {x + size, 0.2, z + size}, {x, 0.2, z + size}},
+                  diffuse(0.0, 1.0));
+    }
+  const auto l = lit(scene, {.element_size = 1.0 / 32.0});
+  std::vector<std::uint8_t> seen(element_count(l->mesh), 0);
+  const std::size_t one = elements_of(*l, "floor")[400];
+  seen[one] = 1;
+  const LitVertices all = lit_vertices(*l->light, {{}, {}, {}, {}}),
+                    few = lit_vertices(*l->light, {{}, {}, {}, {}, seen});
+  EXPECT_LT(3 * few.shadow_rays, 2 * all.shadow_rays);
+  for (const ElementVertexId v : l->mesh.corners[one])
+    EXPECT_EQ(few.found.field.irradiance[index(v)], all.found.field.irradiance[index(v)]);
+  std::vector<Rgb> of_all, of_few;
+  for (std::size_t e = 0; e < seen.size(); ++e) {
+    const auto mean = [&](const LitVertices& lit) {
+      Rgb sum(0.0);
+      for (const ElementVertexId v : l->mesh.corners[e])
+        sum += 0.25 * Rgb(lit.found.field.irradiance[index(v)]);
+      return sum;
+    };
+    of_all.push_back(mean(all));
+    of_few.push_back(mean(few));
+  }
+  const double expected = mean_over(*l, of_all, "floor").g;
+  EXPECT_GT(expected, 0.02);
+  EXPECT_NEAR(mean_over(*l, of_few, "floor").g, expected, 4e-3 * expected);
+}
+
 // What vertices know costs elements nothing: only those by themselves take shadow rays.
 TEST(NodeLight, CornersTakeNoShadowRays) {
   const auto l = lit(plates_with_one_between(), {.element_size = 1.0 / 64.0});

@@ -26,7 +26,7 @@ struct Clustered {
       : l(lit(std::move(scene), {.element_size = 0.5 * scale})), light(*l->light) {
     for (Emitter& cluster : clusters)
       for (std::size_t k = 0; k < l->surfaces.planes.size(); ++k)
-        if (std::abs(signed_distance(l->surfaces.planes[k], cluster.polygon.vertices[0])) <
+        if (std::abs(signed_distance(l->surfaces.planes[k], cluster.corners[0])) <
                 1e-9 * scale &&
             std::abs(glm::dot(l->surfaces.planes[k].normal, cluster.plane.normal)) > 0.999)
           cluster.plane_class = PlaneId{static_cast<std::uint32_t>(k)};
@@ -57,8 +57,8 @@ struct Clustered {
 
 Emitter cluster_of(const std::vector<Point3>& corners, const Rgb& radiosity) {
   Emitter emitter;
-  emitter.polygon = ConvexPolygon(corners);
-  const Vec3 area = area_vector(emitter.polygon.span());
+  emitter.corners = corners;
+  const Vec3 area = area_vector(emitter.corners);
   emitter.area = glm::length(area);
   emitter.plane.normal = emitter.area > 0.0 ? area / emitter.area : Vec3(0.0, 1.0, 0.0);
   emitter.plane.offset = glm::dot(emitter.plane.normal, corners[0]);
@@ -101,7 +101,7 @@ Rgb error_bound(const Clustered& scene, const Receiver& x, const LightcutNode& p
   Rgb moments(0.0);
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
     const Emitter& cluster = scene.light->emitters[scene.tree.order[k]];
-    const auto v = cluster.polygon.span();
+    const auto v = cluster.corners;
     for (std::size_t c = 2; c < v.size(); ++c) {
       const double area = 0.5 * glm::length(glm::cross(v[c - 1] - v[0], v[c] - v[0]));
       for (const Point3& y :
@@ -124,7 +124,7 @@ Rgb closed_form(const Clustered& scene, const Receiver& x, const LightcutNode& p
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
     const Emitter& cluster = scene.light->emitters[scene.tree.order[k]];
     std::vector<Point3> corners;
-    for (const auto& vertex : cluster.polygon.span())
+    for (const auto& vertex : cluster.corners)
       corners.push_back(apply(world.image, vertex));
     sum += world.throughput * cluster.radiosity * point_form_factor(x.position, x.normal, corners);
   }
@@ -225,7 +225,7 @@ TEST(ClusterCut, ComesByWayOfAMirrorAsItWouldInTheDoubledRoom) {
   std::vector<Emitter> images;
   for (const Emitter& cluster : clusters) {
     std::vector<Point3> corners;
-    for (const auto& v : cluster.polygon.span())
+    for (const auto& v : cluster.corners)
       corners.insert(corners.begin(), Point3(-2.0 - v.x, v.y, v.z));
     images.push_back(cluster_of(corners, cluster.radiosity));
   }
@@ -309,7 +309,7 @@ TEST(ClusterCut, IsDarkBehindAPlateAndHalfSeenOverItsEdge) {
   // What is below the plate is blue, what is beside it red; some nodes have both.
   std::vector<Emitter> clusters = floor_clusters(10, {0.06, 0, 0}, 0.3, random);
   for (Emitter& cluster : clusters)
-    cluster.radiosity *= cluster.polygon.vertices[0].x < -0.01 ? Rgb(0.1, 1, 10) : Rgb(10, 1, 0.1);
+    cluster.radiosity *= cluster.corners[0].x < -0.01 ? Rgb(0.1, 1, 10) : Rgb(10, 1, 0.1);
   const Clustered half(std::move(scene), clusters);
   const Receiver behind{{-1, 2, 0}, {0, -1, 0}, none<PlaneId>, {}};
   std::vector<VirtualLight> lights;
@@ -323,7 +323,7 @@ TEST(ClusterCut, IsDarkBehindAPlateAndHalfSeenOverItsEdge) {
   ASSERT_LT(half.stand_ins(above, 0.1, lights).size(), 50U);
   Rgb exact(0.0);
   for (const Emitter& cluster : half.light->emitters) {
-    const ConvexPolygon seen = clip(cluster.polygon, Point3(0.0), {1, 0, 0});
+    const ConvexPolygon seen = clip(ConvexPolygon(cluster.corners), Point3(0.0), {1, 0, 0});
     exact += cluster.radiosity * point_form_factor(above.position, above.normal, seen.span());
   }
   DirectWorkspace direct;
@@ -357,7 +357,7 @@ TEST(ClusterCut, IsTheSameWhereverTheSceneLiesHoweverLargeAndBright) {
     std::vector<Emitter> moved;
     for (const Emitter& cluster : grid) {
       std::vector<Point3> corners;
-      for (const auto& v : cluster.polygon.span())
+      for (const auto& v : cluster.corners)
         corners.push_back(scale * (turn * v) + offset);
       moved.push_back(cluster_of(corners, brightness * cluster.radiosity));
     }

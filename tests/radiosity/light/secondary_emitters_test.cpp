@@ -48,7 +48,7 @@ TEST(SecondaryEmitters, AreAsEvenHoweverFewThereMayBe) {
       sent += emitter.area * emitter.radiosity.g;
       // The brightest and the darkest point of it are half an element off centres.
       double low = 1e9, high = 0.0;
-      for (const Point3& corner : emitter.polygon.span()) {
+      for (const Point3& corner : emitter.corners) {
         low = std::min(low, BrightWall::brightness(corner).g);
         high = std::max(high, BrightWall::brightness(corner).g);
       }

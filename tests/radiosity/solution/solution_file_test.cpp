@@ -43,6 +43,7 @@ protected:
     }
     solution_.solver.iterations = 7;
     solution_.solver.error_bound = std::numeric_limits<double>::infinity();
+    solution_.solver.relative_error = 0.03125;
     solution_.solver.residuals = {0.5, 0.25};
     solution_.energy.emitted = {1.0, 2.0, 3.0};
     solution_.closure.cut = 0.125;
@@ -94,6 +95,7 @@ TEST_F(SolutionFile, KeepsEveryBitAndFigure) {
   EXPECT_EQ(stored.elements, element_count(mesh_));
   EXPECT_EQ(stored.solver.iterations, 7);
   EXPECT_EQ(stored.solver.error_bound, solution_.solver.error_bound);
+  EXPECT_EQ(stored.solver.relative_error, solution_.solver.relative_error);
   EXPECT_EQ(stored.solver.residuals, solution_.solver.residuals);
   EXPECT_EQ(stored.energy.emitted, solution_.energy.emitted);
   EXPECT_EQ(stored.closure.cut, 0.125);

@@ -37,6 +37,57 @@ TEST(Solve, TheBoundBoundsTheErrorAndIsNotIdle) {
   }
 }
 
+/// The mean over area of what is left, relative to what is there, of the worst channel.
+double share_left(const std::vector<Rgb>& exact, const std::vector<Rgb>& x,
+                  const std::vector<double>& area) {
+  Rgb sum(0.0);
+  double whole = 0.0;
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    sum += area[i] * glm::abs(exact[i] - x[i]) / x[i];
+    whole += area[i];
+  }
+  return std::max({sum.r, sum.g, sum.b}) / whole;
+}
+
+// Sweeps leave a residual of one sign, of which only the bounces after the fourth are not summed.
+// A Krylov method leaves one of both signs, whose bounces cancel: there it bounds.
+TEST(Solve, TheErrorInTheMeanIsWhatIsLeft) {
+  Random random(21);
+  for (int k = 0; k < 40; ++k) {
+    const auto [system, area] = reciprocal_system(random, 10 + 2 * k, 2.0, 1.0);
+    const std::vector<Rgb> exact = exact_solution(system);
+    const double tolerance = std::pow(10.0, random.between(-5, -2));
+    const auto solved_by = [&](SolverMethod method) {
+      return solve(system.transport, system.source, system.reflectance,
+                   {.method = method, .tolerance = tolerance},
+                   {.shooters = {}, .watch = {}, .progress = {}, .areas = area});
+    };
+    const SolverResult sweeps = solved_by(SolverMethod::jacobi), steps = solved_by(SolverMethod::bicgstab);
+    const double left = share_left(exact, sweeps.radiosity, area);
+    EXPECT_NEAR(sweeps.relative_error, left, 0.1 * left + 1e-14) << k;
+    EXPECT_GE(1.1 * steps.relative_error + 1e-14, share_left(exact, steps.radiosity, area)) << k;
+  }
+}
+
+// Two rooms that know nothing of each other, one a million times as bright, stop where each of them is solved.
+TEST(Solve, ABrightRoomDoesNotStandForADarkOne) {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(4, 4);
+  m(0, 1) = m(1, 0) = m(2, 3) = m(3, 2) = 1.0;
+  const std::vector<Rgb> source{Rgb(1e6), Rgb(0.0), Rgb(1.0), Rgb(0.0)}, half(4, Rgb(0.5));
+  const std::vector<double> areas(4, 1.0);
+  for (const auto method : {SolverMethod::bicgstab, SolverMethod::gauss_seidel, SolverMethod::jacobi}) {
+    const SolverResult result =
+        solve(transport_of({m}), source, half, {.method = method},
+              {.shooters = {}, .watch = {}, .progress = {}, .areas = areas});
+    EXPECT_TRUE(result.converged) << name_of(method);
+    EXPECT_EQ(result.residuals.size(), static_cast<std::size_t>(result.iterations) + 1);
+    // B = S / (1 - rho^2) = 4/3; ten tolerances.
+    EXPECT_NEAR(result.radiosity[2].r, 4.0 / 3.0, 1e-3 * 4.0 / 3.0) << name_of(method);
+    EXPECT_NEAR(result.radiosity[3].r, 2.0 / 3.0, 1e-3 * 2.0 / 3.0) << name_of(method);
+    EXPECT_LT(result.relative_error, 1e-3) << name_of(method);
+  }
+}
+
 TEST(Solve, BandsDoNotMix) {
   Random random(3);
   System system = random_system(random, 20, 3, 0.8);

@@ -1,10 +1,11 @@
 // Glass by closed forms:
 // Fresnel's law, the sum of what goes to and fro in a pane, and what crosses a leg.
 #include "scenes/materials/glass.h"
-#include "scenes/rays/glass_crossings.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/refraction.h"
+#include "scenes/rays/glass_crossings.h"
 #include "tests/support/glass_rooms.h"
+#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -166,6 +167,36 @@ TEST(Glass, ALegCrossesEveryPaneOnceAndIsNotBlocked) {
   // Along its diagonal a quad is met by one of its triangles.
   glass_crossings(rays, {{0.3, 0.0, -0.3}, {0.3, 1.2, -0.3}, floor}, crossings);
   EXPECT_EQ(crossings.size(), 1U);
+}
+
+// Panes tilted at random in random order: each is crossed once, where the leg meets its plane, nearest first.
+TEST(Glass, ALegCrossesManyPanesInTheirOrder) {
+  constexpr std::size_t count = 60;
+  Random random(5);
+  std::vector<double> heights(count);
+  for (std::size_t k = 0; k < count; ++k)
+    heights[k] = 0.1 + 0.1 * static_cast<double>((37 * k) % count);
+  Scene scene;
+  std::vector<double> at; // by triangle
+  const Leg leg{{0.1, 0.0, 0.05}, {-0.2, 7.0, 0.1}};
+  const Vec3 way = leg.to - leg.from;
+  for (const double y : heights) {
+    const double a = random.between(-0.02, 0.02), b = random.between(-0.02, 0.02);
+    const std::size_t before = scene.triangles.size();
+    add_polygon(scene, "pane",
+                {{-1, y - a - b, -1}, {1, y + a - b, -1}, {1, y + a + b, 1}, {-1, y - a + b, 1}},
+                glass(Rgb(1.0)));
+    // On the plane of the pane y' = y + a x + b z.
+    const double t =
+        (y + a * leg.from.x + b * leg.from.z - leg.from.y) / (way.y - a * way.x - b * way.z);
+    at.resize(at.size() + scene.triangles.size() - before, t);
+  }
+  const RayScene rays = make_ray_scene(scene, find_surfaces(scene));
+  std::vector<GlassCrossing> crossings;
+  glass_crossings(rays, leg, crossings);
+  ASSERT_EQ(crossings.size(), count);
+  for (std::size_t k = 1; k < count; ++k)
+    EXPECT_LT(at[index(crossings[k - 1].triangle)], at[index(crossings[k].triangle)]) << k;
 }
 
 TEST(Glass, ALegThroughTheEdgeOfTwoPanesCrossesEachOnce) {
