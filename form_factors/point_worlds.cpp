@@ -151,13 +151,14 @@ private:
 
   void visit(const Station& station) {
     entered_.push_back({station.image, station.depth, station.throughput});
-    find_obstacles(station);
-    add_targets(station);
+    result_.work += view_.blockers.size() + view_.targets.size() + view_.mirrors.mirrors.size();
+    const auto obstacles = obstacles_of(station);
+    add_targets(station, obstacles);
     if (station.depth >= settings_.max_depth)
       return;
     for (std::uint32_t m = 0; m < view_.mirrors.mirrors.size(); ++m)
       if (static_cast<MirrorId>(m) != station.mirror)
-        enter(station, static_cast<MirrorId>(m));
+        enter(station, static_cast<MirrorId>(m), obstacles);
   }
 
   /// Whether a sphere of unfolded space may be met by light on this leg:
@@ -189,8 +190,8 @@ private:
 
   /// The scene as it stands on this leg, as far as it can be met,
   /// cut off at the mirror the leg leaves.
-  void find_obstacles(const Station& station) {
-    obstacles_.clear();
+  std::vector<Obstacle> obstacles_of(const Station& station) const {
+    std::vector<Obstacle> obstacles;
     for (const Face& face : view_.blockers) {
       if (face.plane_class == station.plane_class)
         continue;
@@ -203,36 +204,40 @@ private:
       if (station.depth > 0)
         clip_in_place(image, origin_of(station.plane), -station.plane.normal);
       if (!image.empty())
-        obstacles_.push_back(
+        obstacles.push_back(
             {image, face.plane_class, appearance_of(point_.x, centre, face.radius)});
     }
+    return obstacles;
   }
 
   /// Appends the parts of a polygon of this world, in unfolded space, that x sees.
   void append_visible(const Station& station, const ConvexPolygon& polygon, const Plane& plane,
-                      PlaneId plane_class) {
+                      PlaneId plane_class, const std::vector<Obstacle>& obstacles,
+                      std::vector<ConvexPolygon>& visible) {
     ConvexPolygon above = clip(polygon, point_.x, point_.normal);
     if (station.depth > 0)
       clip_in_place(above, origin_of(station.plane), -station.plane.normal);
     if (above.empty())
       return;
-    parts_.clear();
+    std::vector<ConvexPolygon> parts;
     if (station.depth == 0)
-      parts_.push_back(above);
+      parts.push_back(above);
     for (const auto& opening : station.openings) {
       const ConvexPolygon part = clip_to_cone(above, point_.x, opening);
       if (!part.empty())
-        parts_.push_back(part);
+        parts.push_back(part);
     }
     const Appearance ball = appearance_of(point_.x, above);
-    for (const auto& obstacle : obstacles_) {
-      if (parts_.empty())
+    for (const auto& obstacle : obstacles) {
+      if (parts.empty())
         break;
+      ++result_.work;
       if (obstacle.plane_class == plane_class || !may_hide(obstacle.ball, ball))
         continue;
-      subtract_cone(parts_, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
+      result_.work += parts.size();
+      subtract_cone(parts, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
     }
-    visible_.insert(visible_.end(), parts_.begin(), parts_.end());
+    visible.insert(visible.end(), parts.begin(), parts.end());
   }
 
   double factor_of(const std::vector<ConvexPolygon>& parts) const {
@@ -242,7 +247,7 @@ private:
     return sum;
   }
 
-  void add_targets(const Station& station) {
+  void add_targets(const Station& station, const std::vector<Obstacle>& obstacles) {
     for (std::size_t t = 0; t < view_.targets.size(); ++t) {
       if (station.depth == 0 && !known_.empty() && known_[t] != 0)
         continue;
@@ -256,16 +261,17 @@ private:
       const Plane plane = apply(station.image, target.plane);
       if (signed_distance(plane, point_.x) <= view_.tolerance)
         continue;
-      visible_.clear();
-      append_visible(station, apply(station.image, target.polygon), plane, target.plane_class);
-      const double factor = factor_of(visible_);
+      std::vector<ConvexPolygon> visible;
+      append_visible(station, apply(station.image, target.polygon), plane, target.plane_class,
+                     obstacles, visible);
+      const double factor = factor_of(visible);
       if (factor > 0.0)
         result_.shares.push_back({station.world, view_.groups[t], factor});
     }
   }
 
   /// Goes on behind a mirror, unless nothing that matters can come from there.
-  void enter(const Station& station, MirrorId id) {
+  void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
     // Nor does it meet a mirror there: two reflections in one plane would
     // let it pass straight through a sheet that mirrors on both sides.
@@ -277,14 +283,15 @@ private:
     const double throughput = mean_of(station.throughput * mirror.reflectance);
     if (throughput <= 0.0)
       return;
-    visible_.clear();
+    std::vector<ConvexPolygon> openings;
     for (const auto& part : mirror.window)
-      append_visible(station, apply(station.image, part), plane, mirror.plane_class);
-    const double bound = throughput * factor_of(visible_);
+      append_visible(station, apply(station.image, part), plane, mirror.plane_class, obstacles,
+                     openings);
+    const double bound = throughput * factor_of(openings);
     if (bound <= 0.0)
       return;
     waiting_bound_ += bound;
-    waiting_.push_back({bound, station.world, id, PackedPolygons(visible_)});
+    waiting_.push_back({bound, station.world, id, PackedPolygons(openings)});
     std::push_heap(waiting_.begin(), waiting_.end(), by_bound);
   }
 
@@ -296,9 +303,6 @@ private:
   std::vector<Waiting> waiting_; ///< a heap: the largest bound first
   double waiting_bound_ = 0.0;   ///< sum over those waiting
   WalkResult result_;
-  // Of one station or polygon at a time, and made once: a polygon has room for many corners.
-  std::vector<Obstacle> obstacles_;
-  std::vector<ConvexPolygon> parts_, visible_;
 };
 
 } // namespace

@@ -2,7 +2,6 @@
 // gap, and points of the face may miss it. Seen from the other side nothing is narrow.
 #include "form_factors/point_form_factor.h"
 #include "form_factors/discontinuity_lines.h"
-#include "form_factors/extended_form_factor.h"
 #include "tests/form_factors/asked_factors.h"
 #include "tests/support/scene_builder.h"
 
@@ -147,36 +146,6 @@ TEST(ShadowLines, PastTheRimOfAMirror) {
     add_polygon(scene, "mirror", facing_down({0.25, 1.75, 0.25, 0.75}, gap), mirror(1.0));
     expect_reciprocity(scene, "gap " + std::to_string(gap));
   }
-}
-
-// A floor of many tiles under a comb: each tile would be cut into a hundred parts, and all of them are to have no more
-// points than there may be. A batch of eight regions may go beyond that by the points of its parts.
-TEST(ShadowLines, ManySendersShareThePoints) {
-  Scene scene;
-  for (int k = 0; k < 12; ++k) {
-    // Neighbours are tilted by turns, so that they stay faces of their own.
-    const double low = k, high = k + 1.0, rise = k % 2 == 0 ? 0.02 : -0.02;
-    add_polygon(scene, "a", {{low, 0, 0}, {high, 0, rise}, {high, 1, rise}, {low, 1, 0}}, diffuse(0.5));
-    for (int tooth = 0; tooth < 4; ++tooth)
-      add_polygon(scene, "comb", at_height({low + 0.2, low + 0.8, 0.2 * tooth + 0.1, 0.2 * tooth + 0.2}, 0.05),
-                  double_sided(diffuse(0.0)));
-  }
-  add_polygon(scene, "b", facing_down({0.0, 12.0, 0.0, 1.0}, 1.0), diffuse(0.5));
-  const std::vector<Face> blockers = joined_faces(find_surfaces(scene));
-  std::vector<Face> senders, targets;
-  for (const Face& face : blockers) {
-    const std::string& name = scene.nodes[index(face.node)].name;
-    if (name != "comb")
-      (name == "a" ? senders : targets).push_back(face);
-  }
-  ASSERT_EQ(senders.size(), 12U);
-  const MirrorSet none;
-  const WorldView view{none, blockers, targets, std::vector<std::uint32_t>(targets.size(), 0), 1e-9};
-  ExtendedSettings settings;
-  settings.max_points = 10'000;
-  const ExtendedFactors factors = extended_form_factors(view, senders, 1, settings);
-  EXPECT_GT(factors.points, settings.max_points / 4);
-  EXPECT_LE(factors.points, settings.max_points + 8 * 4 * 7);
 }
 
 // Two faces of a sheet have one edge between them, which is no outline where the sheet goes on.

@@ -146,15 +146,10 @@ void draw_reference(const Scene& scene, const Camera& camera) {
     require(glm::compMin(variance) >= 0.0F, "a variance of the reference is no number");
 }
 
-void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, const Effort& effort, Random& random) {
+void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, Random& random) {
   NodeFactorSettings settings;
   settings.method = one_of(random, std::array{NodeFactorMethod::analytic, NodeFactorMethod::rays,
                                               NodeFactorMethod::hemicube});
-  // What a point sees past hundreds of pairs of faces, in each of tens of worlds, takes milliseconds.
-  const bool many_pairs = scene.triangles.size() > effort.max_drawn_triangles / 4 &&
-                          std::ranges::any_of(scene.materials, is_mirror);
-  if (many_pairs && settings.method == NodeFactorMethod::analytic)
-    settings.method = NodeFactorMethod::rays;
   settings.accuracy = 0.05;
   settings.rays = 1 << 10;
   settings.resolution = 16;
@@ -184,7 +179,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
   // Between mirrors of reflectance 0.99 a ray is followed a thousand times.
   chosen.render.diffuse.points.rays = 16;
   chosen.render.diffuse.direct.penumbra_rays = 16;
-  // The laws that are tested hold at any accuracy.
+  // Exact rows of some hundred elements take minutes, by design: here they need no more digits than a test of laws.
   chosen.pass_one.form_factors.accuracy = 0.05;
   const auto prepared = prepare_scene(std::move(scene), chosen.pass_one);
   const Scene& there = prepared->scene;
@@ -221,7 +216,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
     draw_reference(there, camera);
   if (happens(random, 0.3)) {
     try {
-      find_form_factors(there, prepared->surfaces, effort, random);
+      find_form_factors(there, prepared->surfaces, random);
     } catch (const UsageError&) {
       // A node of mirrors alone sends nothing.
     }
@@ -237,7 +232,7 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   if (exact && scene.triangles.size() <= effort.max_drawn_triangles / 4 &&
       settings.mesh == MeshCut::uniform) {
     settings.form_factors = FormFactorMethod::analytic;
-    settings.elements = 20; // its time grows with their square
+    settings.elements = 20; // its time grows with their square, and a row takes up to some seconds
   }
   // `render` refuses direct light beside a field that does not tell it apart.
   if (settings.diffuse == DiffuseTerm::direct && !tells_light_apart(settings))
