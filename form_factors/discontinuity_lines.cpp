@@ -301,14 +301,14 @@ std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers) {
 void cut_at_discontinuity_lines(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
                     const LineLimits& limits) {
-  // Some tens of parts are needed for a blocker; each has about a hundred points.
-  constexpr std::size_t max_parts = 128, max_mirrors = 16, min_sights = 16;
+  constexpr std::size_t max_mirrors = 16, min_sights = 16;
+  const std::size_t max_parts = std::min(enough_parts_at_lines, limits.max_parts);
   const std::span<const Mirror> mirrors(
       view.mirrors.mirrors.data(),
       limits.by_mirrors ? std::min(max_mirrors, view.mirrors.mirrors.size()) : 0);
   const std::size_t max_sights =
       limits.max_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
-  if (max_sights < min_sights)
+  if (max_sights < min_sights || parts.size() >= max_parts)
     return;
   std::vector<Cut> cuts;
   const auto add = [&](const std::vector<BlockerEdge>& these, std::vector<Sight> sights) {

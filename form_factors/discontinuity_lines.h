@@ -26,11 +26,15 @@ struct BlockerEdge {
 /// All edges, each once: those that several faces share exactly are one.
 std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers);
 
+/// Some tens of parts are needed for a blocker; each has about a hundred points.
+inline constexpr std::size_t enough_parts_at_lines = 128;
+
 /// Cuts parts of a face along the bands that are narrow beside it, the widest first.
 /// `known` are the targets that are not looked at by points.
 struct LineLimits {
   bool by_mirrors;       ///< what is seen by way of one of the view's mirrors is looked at as well
   std::size_t max_lines; ///< where there are more to draw a part of them is, or none
+  std::size_t max_parts; ///< of the face: one in as many is cut no further
 };
 void cut_at_discontinuity_lines(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,

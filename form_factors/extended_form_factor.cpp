@@ -3,7 +3,7 @@
 #include "form_factors/clear_form_factors.h"
 #include "form_factors/error_sum.h"
 #include "form_factors/kaleidoscope.h"
-#include "form_factors/discontinuity_lines.h"
+#include "form_factors/sender_triangles.h"
 #include "form_factors/world_shares.h"
 
 #include <tbb/parallel_for.h>
@@ -33,18 +33,11 @@ constexpr std::array<TrianglePoint, 7> radon{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 
                                               {r2, r2, 1.0 - 2.0 * r2, w2}}};
 
 /// A triangle of A with the integrals over it.
-struct Region {
-  std::array<Point3, 3> corners;
-  std::uint32_t face = 0;
-  double area = 0.0;
+struct Region : SenderTriangle {
   WorldShares shares;
   WorldShares errors;
   double tail = 0.0;
 };
-
-double area_of(const std::array<Point3, 3>& c) {
-  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-}
 
 class Integration {
 public:
@@ -57,9 +50,9 @@ public:
   }
 
   ExtendedFactors run() {
-    std::vector<Region> whole = first_regions();
-    if (!whole.empty()) {
-      choose_tail(whole);
+    const std::vector<Sender> asked = senders();
+    if (!asked.empty()) {
+      std::vector<Region> whole = first_regions(asked, affordable_points(triangles_of(asked)));
       evaluate(whole);
       choose_weights(whole);
       split(whole);
@@ -78,33 +71,35 @@ private:
     return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
   }
 
-  std::vector<Region> first_regions() const {
-    const std::size_t max_lines = settings_.max_discontinuity_lines / std::max<std::size_t>(1, from_.size());
-    std::vector<BlockerEdge> edges;
-    if (view_.blockers.size() < max_lines)
-      edges = edges_of(view_.blockers);
+  /// The sending faces that are looked at from points.
+  std::vector<Sender> senders() const {
+    std::vector<Sender> senders;
+    for (std::uint32_t f = 0; f < from_.size(); ++f)
+      if (needs_points(f))
+        senders.push_back({from_[f], f, clear_.known[f]});
+    return senders;
+  }
+
+  /// The senders cut, as far as there is time for the points of their parts: all are split once.
+  std::vector<Region> first_regions(std::span<const Sender> senders, std::size_t max_points) {
+    const CutLimits limits{uses_mirrors(), settings_.max_discontinuity_lines / from_.size(),
+                           max_points / (5 * radon.size())};
+    const CutSenders cut = cut_senders(senders, view_, limits);
+    cut_short_ = cut.cut_short;
     std::vector<Region> regions;
-    for (std::size_t f = 0; f < from_.size(); ++f) {
-      if (!needs_points(f))
-        continue;
-      std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_discontinuity_lines(parts, from_[f], view_, edges, clear_.known[f], {uses_mirrors(), max_lines});
-      for (const ConvexPolygon& polygon : parts)
-        for (std::size_t k = 2; k < polygon.size; ++k) {
-          Region region;
-          region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
-          region.face = static_cast<std::uint32_t>(f);
-          region.area = area_of(region.corners);
-          regions.push_back(std::move(region));
-        }
-    }
+    for (const SenderTriangle& triangle : cut.triangles)
+      regions.push_back({triangle, {}, {}, 0.0});
     return regions;
   }
 
-  WalkPoint point_of(const Region& region, const TrianglePoint& p) const {
-    const Face& face = from_[region.face];
-    const auto& c = region.corners;
+  WalkPoint point_of(const SenderTriangle& triangle, const TrianglePoint& p) const {
+    const Face& face = from_[triangle.face];
+    const auto& c = triangle.corners;
     return {p.b0 * c[0] + p.b1 * c[1] + p.b2 * c[2], face.plane.normal, face.plane_class};
+  }
+
+  WalkResult walk_from(const SenderTriangle& triangle, const TrianglePoint& p) const {
+    return walk_worlds(view_, point_of(triangle, p), walk_, clear_.known[triangle.face]);
   }
 
   double total_of(const WorldShares& shares) const {
@@ -114,25 +109,28 @@ private:
     return sum;
   }
 
-  /// The tail that may be left out at each point:
-  /// a part of the wanted accuracy, by a first look from a few points.
-  void choose_tail(const std::vector<Region>& regions) {
+  /// Chooses the tail that may be left out at each point, a part of the wanted accuracy, by a first look
+  /// from a few points. By what a second look takes, the number of points that there is time for.
+  std::size_t affordable_points(const std::vector<SenderTriangle>& triangles) {
     constexpr double part = 0.2, first_look = 1e-2, min_factor = 1e-4;
     constexpr std::size_t looks = 8;
     walk_.max_depth = settings_.max_depth;
     walk_.tail = first_look;
     WorldShares seen;
-    const std::size_t stride = (regions.size() + looks - 1) / looks;
+    const std::size_t stride = (triangles.size() + looks - 1) / looks;
     std::size_t count = 0;
-    for (std::size_t r = 0; r < regions.size(); r += stride, ++count)
-      append(
-          seen,
-          walk_worlds(view_, point_of(regions[r], radon[0]), walk_, clear_.known[regions[r].face]),
-          1.0, index_);
+    for (std::size_t t = 0; t < triangles.size(); t += stride, ++count)
+      append(seen, walk_from(triangles[t], radon[0]), 1.0, index_);
     double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
     for (const Estimate& closed : clear_.factors)
       factor += closed.value;
     walk_.tail = part * settings_.accuracy * std::max(factor, min_factor);
+
+    std::size_t work = count;
+    for (std::size_t t = 0; t < triangles.size(); t += stride)
+      work += walk_from(triangles[t], radon[0]).work;
+    const double points = static_cast<double>(settings_.max_work) * static_cast<double>(count) / static_cast<double>(work);
+    return static_cast<std::size_t>(std::min(static_cast<double>(settings_.max_points), points));
   }
 
   /// Fills in the integrals over the regions, some hundred at a time.
@@ -144,8 +142,7 @@ private:
       tbb::task_group_context alone(tbb::task_group_context::isolated);
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
-        walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_,
-                               clear_.known[region.face]);
+        walks[k] = walk_from(region, radon[k % radon.size()]);
       }, alone);
       for (std::size_t k = 0; k < walks.size(); ++k) {
         Region& region = regions[first + k / radon.size()];
@@ -153,6 +150,7 @@ private:
         append(region.shares, walks[k], weight, index_);
         region.tail += weight * walks[k].tail;
         visits_ += walks[k].worlds.size();
+        work_ += walks[k].work;
       }
       for (std::size_t r = 0; r < count; ++r)
         combine(regions[first + r].shares);
@@ -281,7 +279,8 @@ private:
 
   void refine() {
     constexpr std::size_t max_at_once = 8;
-    while (!has_settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
+    while (!has_settled() && points_ < settings_.max_points && visits_ < settings_.max_visits &&
+           work_ < settings_.max_work) {
       std::vector<Region> parents;
       const double largest = heap_.top().first;
       while (parents.size() < max_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)
@@ -319,7 +318,7 @@ private:
       value += factor.total.value;
       error = std::max(error, factor.total.error);
     }
-    factors.converged = error <= settings_.accuracy * value + 1e-15;
+    factors.converged = !cut_short_ && error <= settings_.accuracy * value + 1e-15;
     return factors;
   }
 
@@ -365,7 +364,8 @@ private:
       heap_; ///< the region with the largest error first
   double value_ = 0.0;
   std::vector<ErrorSum> errors_; ///< by group, of the regions
-  std::size_t points_ = 0, visits_ = 0;
+  std::size_t points_ = 0, visits_ = 0, work_ = 0;
+  bool cut_short_ = false;
 };
 
 } // namespace

@@ -151,6 +151,7 @@ private:
 
   void visit(const Station& station) {
     entered_.push_back({station.image, station.depth, station.throughput});
+    result_.work += view_.blockers.size() + view_.targets.size() + view_.mirrors.mirrors.size();
     const auto obstacles = obstacles_of(station);
     add_targets(station, obstacles);
     if (station.depth >= settings_.max_depth)
@@ -212,7 +213,7 @@ private:
   /// Appends the parts of a polygon of this world, in unfolded space, that x sees.
   void append_visible(const Station& station, const ConvexPolygon& polygon, const Plane& plane,
                       PlaneId plane_class, const std::vector<Obstacle>& obstacles,
-                      std::vector<ConvexPolygon>& visible) const {
+                      std::vector<ConvexPolygon>& visible) {
     ConvexPolygon above = clip(polygon, point_.x, point_.normal);
     if (station.depth > 0)
       clip_in_place(above, origin_of(station.plane), -station.plane.normal);
@@ -230,8 +231,10 @@ private:
     for (const auto& obstacle : obstacles) {
       if (parts.empty())
         break;
+      ++result_.work;
       if (obstacle.plane_class == plane_class || !may_hide(obstacle.ball, ball))
         continue;
+      result_.work += parts.size();
       subtract_cone(parts, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
     }
     visible.insert(visible.end(), parts.begin(), parts.end());

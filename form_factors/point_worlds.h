@@ -59,6 +59,7 @@ struct WalkResult {
   std::vector<WalkShare> shares;
   double tail =
       0.0; ///< bound on sum tau_w F^w over all that was left out, tau_w the mean of its channels
+  std::size_t work = 0; ///< steps: faces looked at, and parts of them compared with what may hide them
 };
 
 /// The mean of the channels: how a colour counts in a total.

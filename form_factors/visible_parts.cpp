@@ -219,9 +219,7 @@ std::vector<Face> without_overlaps(const std::vector<Face>& faces, double tolera
 }
 
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
-                                           double tolerance) {
-  // A face on which very many things stand is left to the integration.
-  constexpr std::size_t max_parts = 256;
+                                           double tolerance, std::size_t max_parts) {
   std::vector<ConvexPolygon> parts{face.polygon};
   for (const Face& other : others) {
     if (other.plane_class == face.plane_class ||

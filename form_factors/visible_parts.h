@@ -36,10 +36,13 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 /// Rays meet one of them as well; counted twice, form factors in a closed room would exceed one.
 std::vector<Face> without_overlaps(const std::vector<Face>& faces, double tolerance);
 
-/// The face cut along the lines where others stand on it:
+/// A face on which very many things stand is left to the integration.
+inline constexpr std::size_t enough_parts_at_contacts = 256;
+
+/// The face cut along the lines where others stand on it, unless it is in `max_parts` or more:
 /// across them what is seen jumps, between them it changes steadily.
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
-                                           double tolerance);
+                                           double tolerance, std::size_t max_parts = enough_parts_at_contacts);
 
 /// Splits the parts that the segment runs through, along the line it is on.
 void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to,

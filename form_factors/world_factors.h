@@ -15,6 +15,9 @@ struct ExtendedSettings {
   int max_depth = 1'000'000;        ///< mirrors a path may meet
   std::size_t max_points = 50'000; ///< of the integration: in a cluttered room some ten seconds
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
+  /// Steps of all points together (point_worlds.h), some 50 to 100 ns each: five seconds. Where that is few
+  /// points senders are cut into fewer parts, and the result says that it has not converged.
+  std::size_t max_work = 50'000'000;
   /// Lines of shadow that are drawn to cut the senders by (discontinuity_lines.h), some tenths of a
   /// second. Where there are as many blockers senders are not cut.
   std::size_t max_discontinuity_lines = 10'000'000;

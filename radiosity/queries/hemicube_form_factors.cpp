@@ -27,14 +27,14 @@ ReceiverArea point_on(const Face& face, const Point3& x) {
   return point;
 }
 
-/// Cells of a quad's (u, v), about square and about `count`.
+/// Cells of a quad's (u, v), about square and about `count`: a strip has no more, however long.
 /// Their parts of the area are those of their quads, half the diagonals' cross product.
 void add_quad(const Face& face, double count, int split, double total_area,
               std::vector<CubePlace>& places) {
   const auto& p = face.polygon.vertices;
   const double along = glm::distance(p[0], p[1]) + glm::distance(p[3], p[2]),
                across = glm::distance(p[0], p[3]) + glm::distance(p[1], p[2]);
-  const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(count * along / across))));
+  const int columns = std::max(1, static_cast<int>(std::lround(std::min(count, std::sqrt(count * along / across)))));
   const int rows = std::max(1, static_cast<int>(std::lround(count / columns)));
   const int nu = columns * split, nv = rows * split;
   const auto at = [&](double i, double j) {

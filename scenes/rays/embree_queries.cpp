@@ -8,6 +8,9 @@
 
 namespace meninas {
 
+namespace {
+
+/// Adds a triangle within reach of a point that leaves a plane.
 void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
                  Contacts& contacts) {
   const auto& facts = geometry.facts[triangle];
@@ -15,15 +18,9 @@ void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uin
   if (facts.glass && facts.plane != leaving)
     return;
   auto& list = facts.plane == leaving ? contacts.own : contacts.others;
-  const auto known = std::ranges::any_of(
-      list, [&](const ContactTriangle& contact) { return index(contact.triangle) == triangle; });
-  if (!known)
-    list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
-                    facts.single_sided ? Sidedness::single : Sidedness::both,
-                    corners_of(geometry, triangle)});
+  list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
+                  facts.single_sided ? Sidedness::single : Sidedness::both, corners_of(geometry, triangle)});
 }
-
-namespace {
 
 struct ContactQuery {
   const FrameGeometry* geometry;
@@ -32,6 +29,14 @@ struct ContactQuery {
   double reach;
   Contacts found;
 };
+
+/// The tree holds parts of large triangles apart, so that some are found more than once. Hundreds meet in the
+/// middle of a fan: to look for each in all others would take longer than to find them.
+void remove_repeated(std::vector<ContactTriangle>& contacts) {
+  std::ranges::sort(contacts, {}, &ContactTriangle::triangle);
+  const auto repeated = std::ranges::unique(contacts, {}, &ContactTriangle::triangle);
+  contacts.erase(repeated.begin(), repeated.end());
+}
 
 bool collect_contact(RTCPointQueryFunctionArguments* args) {
   auto& query = *static_cast<ContactQuery*>(args->userPtr);
@@ -50,6 +55,8 @@ Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(rays.impl().scene.get(), &point, &context, collect_contact, &query);
+  remove_repeated(query.found.own);
+  remove_repeated(query.found.others);
   return std::move(query.found);
 }
 

@@ -20,8 +20,4 @@ void trace_all(const RayScene& rays, const LaneRay& ray, const RayRule& rule,
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
                      double min_reach = 0.0);
 
-/// Adds a triangle within reach, once, of a point that leaves a plane.
-void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
-                 Contacts& contacts);
-
 } // namespace meninas

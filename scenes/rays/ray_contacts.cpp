@@ -101,13 +101,17 @@ std::optional<ContactTriangle> blocking_contact(const Contacts& contacts,
   std::optional<ContactTriangle> blocker;
   double steepest = 0.0;
   for (const auto& wall : contacts.others) {
+    // The side of the wall is a sign, and takes a look at all of the own surface: it is asked for last.
     const auto normal = normal_of(wall);
-    const auto approach = -glm::dot(departure.direction, normal) *
-                          own_side(contacts, wall, normal, departure.origin, noise);
-    const auto further = approach == steepest && blocker && wall.triangle < blocker->triangle;
-    if (approach <= noise || (approach <= steepest && !further))
+    const auto along = -glm::dot(departure.direction, normal);
+    const auto squareness = std::abs(along);
+    const auto further = squareness == steepest && blocker && wall.triangle < blocker->triangle;
+    if (squareness <= noise || (squareness <= steepest && !further))
       continue;
     if (!rises_above(wall, departure, noise))
+      continue;
+    const auto approach = along * own_side(contacts, wall, normal, departure.origin, noise);
+    if (approach < 0.0)
       continue;
     blocker = wall;
     steepest = approach;

@@ -230,8 +230,10 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   // Exact form factors by way of many mirrors take minutes, by design.
   const bool exact = happens(random, 0.1) && std::ranges::none_of(scene.materials, is_mirror);
   if (exact && scene.triangles.size() <= effort.max_drawn_triangles / 4 &&
-      settings.mesh == MeshCut::uniform)
+      settings.mesh == MeshCut::uniform) {
     settings.form_factors = FormFactorMethod::analytic;
+    settings.elements = 20; // its time grows with their square, and a row takes up to some seconds
+  }
   // `render` refuses direct light beside a field that does not tell it apart.
   if (settings.diffuse == DiffuseTerm::direct && !tells_light_apart(settings))
     settings.diffuse = DiffuseTerm::interpolated;

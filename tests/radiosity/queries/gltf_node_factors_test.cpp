@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace meninas::test {
@@ -144,6 +145,20 @@ TEST(KnownFactorsByHemicubes, MostErrorsAreWithinTheirEstimates) {
     }
   EXPECT_GE(covered, 0.9 * asked_count);
   EXPECT_GE(useful, 0.5 * asked_count);
+}
+
+// Square pieces of a strip would be thousands. As many cubes stand on it as are asked for, which is seen by
+// what cannot be excluded of a node that none of them meets (the rule of three).
+TEST(KnownFactorsByHemicubes, AStripHasNoMoreThanOthers) {
+  Scene scene;
+  add_polygon(scene, "strip", {{0, 0, 0}, {1, 0, 0}, {1, 1e-4, 0}, {0, 1e-4, 0}}, diffuse(0.5));
+  add_polygon(scene, "below", {{0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}}, diffuse(0.5));
+  constexpr int resolution = 32, points = 4;
+  const Asked asked = ask(scene, "strip", "below",
+                          {.method = NodeFactorMethod::hemicube, .resolution = resolution, .points = points});
+  const double largest_cell = 4.0 / (std::numbers::pi * resolution * resolution);
+  EXPECT_EQ(asked.factor.total.value, 0.0);
+  EXPECT_NEAR(asked.factor.total.error, 3.0 * largest_cell / std::sqrt(points), 1e-12);
 }
 
 // A sheet that stands in a closed room and mirrors on both sides takes nothing and lets
