@@ -261,13 +261,13 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
 
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
   // The mean over an element is that of four corners, as it is that of four and more points of its own.
-  const DirectSettings& all_images = source.gathering.direct;
-  DirectSettings few_images = all_images;
-  few_images.images = std::min(all_images.images, all_images.images_in_element);
+  const DirectSettings& where_seen = source.gathering.direct;
+  DirectSettings elsewhere = where_seen;
+  elsewhere.images = std::min(where_seen.images, where_seen.images_in_element);
   light_each(source, {VertexState::unknown, VertexState::direct_only, {}, level}, found,
              [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
                return {direct_light_by(source.gathering,
-                                       is_seen(source, v) ? all_images : few_images,
+                                       is_seen(source, v) ? where_seen : elsewhere,
                                        found.receivers[v], seed, work),
                        {}};
              });
