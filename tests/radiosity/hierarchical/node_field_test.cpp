@@ -238,7 +238,7 @@ TEST(NodeField, ABrightNookSendsOutNoMoreThanLeavesIt) {
 }
 
 // A narrow spot on a few elements lights the room. Which receivers are divided depends on whose rays meet it:
-// were those rays kept, light would be lost (a third of it here). Whatever is emitted is absorbed in the end.
+// were those rays kept, light would be lost (a tenth of it here). Whatever is emitted is absorbed in the end.
 TEST(NodeField, NarrowSpotsLightTheRoomAsTheyShould) {
   Scene scene;
   const Material wall = diffuse(0.7);
@@ -257,14 +257,16 @@ TEST(NodeField, NarrowSpotsLightTheRoomAsTheyShould) {
   // W: I int a^2 dw, a = (cos theta - cos outer) / (cos inner - cos outer) from 0 to 1 (KHR_lights_punctual).
   const double inner = std::cos(spot.inner_cone), outer = std::cos(spot.outer_cone);
   const double emitted = 100.0 * 2.0 * std::numbers::pi * ((1.0 - inner) + (inner - outer) / 3.0);
-  for (const std::uint32_t seed : {0U, 3U}) {
+  constexpr std::uint32_t seeds = 8;
+  double absorbed = 0.0;
+  for (std::uint32_t seed = 0; seed < seeds; ++seed) {
     settings.form_factors.seed = settings.direct.seed = seed;
     const RadiositySolution solution = solve_pass_one(l->light, settings);
-    double absorbed = 0.0;
     for (std::size_t e = 0; e < element_count(l->mesh); ++e)
-      absorbed += 0.3 * l->mesh.area[e] * solution.irradiance[e].g;
-    EXPECT_NEAR(absorbed / emitted, 1.0, 0.08) << seed;
+      absorbed += 0.3 * l->mesh.area[e] * solution.irradiance[e].g / seeds;
   }
+  // One seed scatters by 2.6 %: four sigma of the mean of eight.
+  EXPECT_NEAR(absorbed / emitted, 1.0, 0.037);
 }
 
 /// Of what the indirect light of a and b differs by at vertices,
