@@ -79,7 +79,7 @@ TEST(Samples, AreAdaptiveUnlessTheirNumberIsAskedFor) {
     RunSettings settings = with_quality(quality);
     const RenderSettings preset = render_of(settings);
     EXPECT_GT(preset.pixel_error, 0.0);
-    EXPECT_EQ(preset.samples, 4 * preset.min_samples);
+    EXPECT_EQ(preset.samples, 16 * preset.min_samples);
     settings.samples = 32;
     EXPECT_EQ(render_of(settings).samples, 32);
     EXPECT_EQ(render_of(settings).pixel_error, 0.0);
