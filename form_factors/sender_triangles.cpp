@@ -11,15 +11,11 @@ namespace {
 void append_fan(const ConvexPolygon& polygon, std::uint32_t face, std::vector<SenderTriangle>& triangles) {
   for (std::size_t k = 2; k < polygon.size; ++k) {
     const std::array corners{polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
-    triangles.push_back({corners, face, area_of(corners)});
+    triangles.push_back({corners, face, glm::length(area_vector(corners))});
   }
 }
 
 } // namespace
-
-double area_of(const std::array<Point3, 3>& c) {
-  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-}
 
 std::vector<SenderTriangle> triangles_of(std::span<const Sender> senders) {
   std::vector<SenderTriangle> triangles;

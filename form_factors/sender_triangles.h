@@ -14,9 +14,6 @@ struct SenderTriangle {
   double area = 0.0;
 };
 
-/// A = |(b - a) x (c - a)| / 2, in m^2.
-double area_of(const std::array<Point3, 3>& corners);
-
 /// A sending face, with what points of it are asked for: `known` marks the targets that they are not.
 struct Sender {
   const Face& face;

@@ -16,7 +16,8 @@
 //   rho max_d |H_d - H_parent| > X (min(B, Phi / 256 A_c) + B_mean),
 //
 // d over the parts of the receiver's parent, H with G and the light of the sky, A_c the receiver's area and
-// Phi = sum A B: the less a part is of all there is, the brighter it may be until its power counts, and not its light alone. The larger system is solved, until
+// Phi = sum A B: in a bright nook it is not the light of a receiver that counts, but its part of all light.
+// The larger system is solved, until
 // no receiver is divided. The difference between children and parent halves per level, hence the factor 2 in the
 // bound: links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
 // The factors of links come from the rays of the receivers' rows and not from pairs of nodes:

@@ -32,7 +32,8 @@ struct NewElements {
   const CutCells& cuts;
   const std::vector<std::uint8_t>& changed; ///< by surface_side(); empty: all are
 
-  /// The leaf that this one is all the same as, on a side of a surface where no cell has been divided; null if it may not be.
+  /// The leaf that this one is all the same as, on a side of a surface where no cell has been divided; null on
+  /// others.
   const MeshCell* kept(const MeshCell& cell, std::uint32_t number) const {
     return changed.empty() || changed[surface_side(mesh, surfaces, cell)] != 0
                ? nullptr
