@@ -160,6 +160,13 @@ TEST(NodeLight, VerticesThatAreNotSeenTakeFewerImages) {
   const LitVertices all = lit_vertices(*l->light, {{}, {}, {}, {}}),
                     few = lit_vertices(*l->light, {{}, {}, {}, {}, seen});
   EXPECT_LT(3 * few.shadow_rays, 2 * all.shadow_rays);
+  std::size_t bright = 0, others = 0;
+  for (std::size_t v = 0; v < l->mesh.vertices.size(); ++v)
+    if (all.found.field.irradiance[v] != glm::vec3(0.0F)) {
+      ++bright;
+      others += few.found.field.irradiance[v] != all.found.field.irradiance[v] ? 1 : 0;
+    }
+  EXPECT_GT(2 * others, bright) << "not those beside penumbrae alone";
   for (const ElementVertexId v : l->mesh.corners[one])
     EXPECT_EQ(few.found.field.irradiance[index(v)], all.found.field.irradiance[index(v)]);
   std::vector<Rgb> of_all, of_few;
