@@ -68,6 +68,7 @@ struct Search {
   const RunEvents& events;
   SteeredChoice choice = {};
   std::optional<SteeredRun> best = {};
+  MeasuredRun last = {}; ///< may be no better
   RunSeconds seconds = {}; ///< of all
   double rays = 0.0;       ///< likewise, where these are what is counted
 
@@ -91,6 +92,7 @@ struct Search {
     const MeasuredRun& costs = run->measured;
     rays += (solved ? costs.pass_one_cost : 0.0) + costs.pass_two_cost + costs.estimate_cost;
     const double error = run->measured.error.total;
+    last = costs;
     choice.steps.push_back({next.parameters.elements, run->figures.elements, next.parameters.rays,
                             next.parameters.samples, next.parameters.term, watch.lap(), error,
                             next.forecast.error, next.why});
@@ -109,6 +111,7 @@ struct Search {
       choice.kept = choice.steps.size() - 1;
     }
     best->measured.mesh_exponent = exponent;
+    last.mesh_exponent = exponent;
     return true;
   }
 };
@@ -136,14 +139,18 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
     choice.reached = !request.goal.error || search.error() <= wanted;
     if (request.goal.error && choice.reached)
       break;
-    const MeasuredRun& measured = search.best->measured;
     const double margin = search.error() < near * wanted ? near_margin : error_margin;
-    next =
-        next_run(measured, steering.free, std::max(margin * wanted, at_once * search.error()),
-                 steering.counts_rays()
-                     ? max_growth * search.rays
-                     : std::min(time_margin * steering.left(), max_growth * steering.spent()));
-    if (next.parameters == measured.parameters || was_made(choice, next.parameters))
+    const auto next_after = [&](const MeasuredRun& run) {
+      return next_run(run, steering.free, std::max(margin * wanted, at_once * search.error()),
+                      steering.counts_rays()
+                          ? max_growth * search.rays
+                          : std::min(time_margin * steering.left(), max_growth * steering.spent()));
+    };
+    next = next_after(search.best->measured);
+    // The best may ask for what was made after it and seemed no better: that one knows more of its own error.
+    if (was_made(choice, next.parameters))
+      next = next_after(search.last);
+    if (was_made(choice, next.parameters))
       break;
     note(events, fmt::format("next, because of {}", next.why));
   }

@@ -1,9 +1,11 @@
 // Whether a run that chooses its own settings says truly how far it has come.
 #include "image/metrics/relative_error.h"
+#include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "runs/steering/steered_picture.h"
 #include "runs/steering/steering.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,6 +92,15 @@ TEST(Steering, ChoosesAlikeWithAnyNumberOfThreads) {
     EXPECT_EQ(one.choice.steps[k].error, four.choice.steps[k].error);
     EXPECT_EQ(one.choice.steps[k].foretold, four.choice.steps[k].foretold);
   }
+}
+
+// The second picture of the periscope seems no better than the first, which has not met all of its own error,
+// and the first asks for no other: the second does.
+TEST(Steering, GoesOnFromARunThatSeemsNoBetter) {
+  const Scene scene = load_scene(source_dir() + "/scenes/gallery/periscope.gltf", {});
+  RunFigures figures;
+  steer({scene, scene.cameras.front(), {96, 96}, {}, {.error = 0.02, .seconds = {}}}, {}, figures);
+  EXPECT_TRUE(figures.choice->reached);
 }
 
 // More samples by the field of the view that is there: the picture, its estimate and its costs
