@@ -1,6 +1,7 @@
 #include "radiosity/field/view/view_field.h"
 
 #include "radiosity/field/vertex_places.h"
+#include "radiosity/field/view/cell_light.h"
 #include "radiosity/field/view/cell_lookup.h"
 #include "radiosity/field/view/curve_places.h"
 #include "radiosity/field/view/lattice_cells.h"
@@ -36,27 +37,14 @@ struct VertexLight {
   float surplus = 0.0F;  ///< as a share of what is there
 };
 
-/// The same wherever the vertex is asked for.
-std::uint32_t seed_of(const ElementMesh& mesh, const LatticeVertex& vertex, std::uint32_t seed) {
-  const auto folded = [](std::int64_t x) { return static_cast<std::uint32_t>(x ^ (x >> 32)); };
-  return hash(hash(index(mesh.side_of_element[index(vertex.element)]), folded(vertex.at.x),
-                   folded(vertex.at.y)),
-              seed, 0x71e3);
-}
-
 /// Vertices in rows of one element each.
 struct VertexRows {
   std::vector<std::uint32_t> vertices;
   std::vector<std::size_t> begin; ///< rows + 1
 };
 
-/// Of the vertices from that number on, those that are lit themselves.
-VertexRows rows_from(std::size_t first, const std::vector<LatticeVertex>& all,
-                     const CurvePlaces& places) {
-  VertexRows rows;
-  for (auto v = static_cast<std::uint32_t>(first); v < all.size(); ++v)
-    if (places.first_of(v) == v)
-      rows.vertices.push_back(v);
+VertexRows rows_of(std::vector<std::uint32_t> vertices, const std::vector<LatticeVertex>& all) {
+  VertexRows rows{std::move(vertices), {}};
   const auto element_of = [&](std::uint32_t v) { return index(all[v].element); };
   std::ranges::stable_sort(rows.vertices, {}, element_of);
   for (std::size_t k = 0; k < rows.vertices.size(); ++k)
@@ -86,29 +74,54 @@ public:
         seen_.divide(cell);
       light_from(new_vertices);
     }
+    filter_edges();
     settle();
     return result();
   }
 
 private:
-  /// Light at the vertices from that number on. Occluders met by rays to an element's vertices are cached for
-  /// later vertices of the same element, in their order.
+  /// Light at the vertices from that number on.
   void light_from(std::size_t first) {
-    constexpr std::size_t max_kept = 64;
     const auto& vertices = cells_.vertices();
     lights_.resize(vertices.size());
     places_.find_new();
-    const VertexRows rows = rows_from(first, vertices, places_);
+    std::vector<std::uint32_t> lit;
+    for (auto v = static_cast<std::uint32_t>(first); v < vertices.size(); ++v)
+      if (places_.first_of(v) == v)
+        lit.push_back(v);
+    const VertexRows rows = rows_of(std::move(lit), vertices);
+    light_rows(rows, [&](std::uint32_t v, SharedLightWorkspace& work) {
+      return direct_at(light_, {cells_, v}, seen_.pixels_of_vertex(v), how_, work);
+    });
+    tbb::parallel_for(first, vertices.size(), [&](std::size_t v) {
+      if (const std::uint32_t other = places_.first_of(v); other != v)
+        take_direct(lights_[other], lights_[v]);
+      take_indirect(vertices[v], lights_[v]);
+    });
+    tbb::parallel_for(first, vertices.size(),
+                      [&](std::size_t v) { find_surplus(static_cast<std::uint32_t>(v)); });
+    forget_but(rows);
+  }
+
+  /// Direct light, row by row. Occluders met by rays to an element's vertices are cached for
+  /// later vertices of the same element, in their order.
+  template <typename DirectAt> void light_rows(const VertexRows& rows, const DirectAt& direct) {
+    constexpr std::size_t max_kept = 64;
     tbb::parallel_for(std::size_t{0}, rows.begin.size() - 1, [&](std::size_t row) {
       SharedLightWorkspace& work = workspaces_.local();
       const std::size_t begin = rows.begin[row], end = rows.begin[row + 1];
-      OccludersOfImages& known = blockers_[seen_.root_of(vertices[rows.vertices[begin]].element)];
+      OccludersOfImages& known = blockers_[seen_.root_of(cells_.vertices()[rows.vertices[begin]].element)];
       std::swap(work.blockers_of, known);
       for (std::size_t k = begin; k < end; ++k) {
         constexpr std::size_t often = 16;
         if (progress_ && (k - begin) % often == 0)
           progress_("render", 0.0);
-        light_vertex(rows.vertices[k], work);
+        const std::uint32_t v = rows.vertices[k];
+        const ArrivingLight d = direct(v, work);
+        lights_[v].direct = glm::vec3(d.total);
+        lights_[v].direct_mirrored = glm::vec3(d.mirrored);
+        lights_[v].punctual = static_cast<float>(largest(d.punctual));
+        lights_[v].error = static_cast<float>(work.shadow_error);
       }
       // Images without a cached occluder only take room, and so do more images than few vertices need.
       std::erase_if(work.blockers_of, [](const auto& image) { return image.second.learned == 0; });
@@ -116,14 +129,30 @@ private:
         work.blockers_of.clear();
       std::swap(work.blockers_of, known);
     });
-    tbb::parallel_for(first, vertices.size(), [&](std::size_t v) {
-      if (const std::uint32_t lit = places_.first_of(v); lit != v)
-        take_direct(lights_[lit], lights_[v]);
-      take_indirect(vertices[v], lights_[v]);
+  }
+
+  /// Where edges end in cells within a pixel, their corners take the mean of what they stand for.
+  void filter_edges() {
+    std::vector<std::uint8_t> levels(lights_.size(), 0); // of the smallest cell about a vertex that an edge ends in
+    for (std::uint32_t c = 0; c < cells_.cells().size(); ++c) {
+      const LatticeCell& cell = cells_.cells()[c];
+      const double pixels = seen_.pixels(c);
+      if (cell.first_child == LatticeCell::leaf && pixels > 0.0 && pixels <= 0.5 && pixels * double{spread_of(cell)} > how_.tolerance)
+        for (const std::uint32_t v : cell.corners) {
+          std::uint8_t& level = levels[places_.first_of(v)];
+          level = std::max(level, cell.level);
+        }
+    }
+    std::vector<std::uint32_t> at_edges;
+    for (std::uint32_t v = 0; v < levels.size(); ++v)
+      if (levels[v] > 0)
+        at_edges.push_back(v);
+    light_rows(rows_of(std::move(at_edges), cells_.vertices()), [&](std::uint32_t v, SharedLightWorkspace& work) {
+      return mean_direct_around(light_, {cells_, v}, levels[v], how_, work);
     });
-    tbb::parallel_for(first, vertices.size(),
-                      [&](std::size_t v) { find_surplus(static_cast<std::uint32_t>(v)); });
-    forget_but(rows);
+    for (std::uint32_t v = 0; v < levels.size(); ++v)
+      if (const std::uint32_t other = places_.first_of(v); other != v && levels[other] > 0)
+        take_direct(lights_[other], lights_[v]);
   }
 
   static void take_direct(const VertexLight& from, VertexLight& light) {
@@ -146,51 +175,6 @@ private:
     for (std::size_t root = 0; root < blockers_.size(); ++root)
       if (is_active[root] == 0)
         OccludersOfImages().swap(blockers_[root]);
-  }
-
-  ArrivingLight direct_at(const LatticeVertex& vertex, double pixels, SharedLightWorkspace& work) {
-    constexpr int rounds = 8;
-    constexpr std::uint32_t times_learned = 4;
-    const Receiver receiver = receiver_of(light_, cells_, vertex);
-    // The curve over an element may see light that its plane cannot see.
-    const ElementId element = is_on_curve(receiver) ? none<ElementId> : vertex.element;
-    const SharedLightSettings settings{.points = 1,
-                                       .max_points = pixels > 4.0   ? rounds
-                                                      : pixels > 1.5 ? rounds / 2
-                                                                     : rounds / 4,
-                                       .images = how_.images,
-                                       .rays = how_.rays,
-                                       .penumbra_rays = std::max(1, how_.penumbra_rays / rounds),
-                                       .solid_rays = how_.solid_rays,
-                                       .unsure = 1.0,
-                                       .unsure_shadow = 0.1 * how_.tolerance,
-                                       .rays_by_brightness = true,
-                                       .one_place = true,
-                                       .caches_occluders = true};
-    // Each time by other rays: those that have taught what blocks them have missed the rest.
-    const auto found = [&](std::uint32_t time) {
-      std::uint32_t next = 0;
-      return mean_direct_irradiance(
-          light_,
-          [&] {
-            return NumberedPoint{receiver, next++, element};
-          },
-          settings, seed_of(mesh_, vertex, hash(how_.seed, time)), work);
-    };
-    ArrivingLight light = found(0);
-    for (std::uint32_t time = 1; time <= times_learned && work.has_new_occluders; ++time)
-      light = found(time);
-    return light;
-  }
-
-  void light_vertex(std::uint32_t v, SharedLightWorkspace& work) {
-    const LatticeVertex& vertex = cells_.vertices()[v];
-    VertexLight& light = lights_[v];
-    const ArrivingLight d = direct_at(vertex, seen_.pixels_of_vertex(v), work);
-    light.direct = glm::vec3(d.total);
-    light.direct_mirrored = glm::vec3(d.mirrored);
-    light.punctual = static_cast<float>(largest(d.punctual));
-    light.error = static_cast<float>(work.shadow_error);
   }
 
   /// The surplus of D at a vertex over the mean of its neighbours, beyond twice the error of the difference.

@@ -270,5 +270,38 @@ TEST(ViewField, ASharpEdgeEndsWithinAPixel) {
   EXPECT_LT(wrong, points / 100);
 }
 
+/// Where the light along a line of constant z ends: its integral over x by that of lit places, metres from `from`.
+double place_of_edge(const SolvedFloor& floor, const IrradianceField& field, double from, double to, double z) {
+  constexpr int steps = 20000;
+  double sum = 0.0;
+  for (int k = 0; k < steps; ++k)
+    sum += irradiance(floor, field, from + (to - from) * (k + 0.5) / steps, z);
+  return to - (to - from) * sum / steps / irradiance(floor, field, to, z);
+}
+
+// Edges parallel to the lattice cross all cells in the same way: without the mean over footprints they are off by up to a tenth
+// of a pixel along their whole length. Eight points in a footprint of at most 0.2 pixels leave a fortieth of a pixel.
+TEST(ViewField, EdgesAlongTheLatticeAreInTheirPlace) {
+  constexpr double half = 1.0, pixel = 2.0 * half / 100;
+  const std::vector<Point3> lamp{{-0.01, 2, -0.01}, {0.01, 2, -0.01}, {0.01, 2, 0.01}, {-0.01, 2, 0.01}};
+  for (const bool is_sun : {true, false})
+    for (int k = 0; k < 8; ++k) {
+      const double edge = (0.3 + 0.37 * k) * pixel, height = is_sun ? 1.0 : 0.1;
+      Scene scene;
+      add_floor(scene);
+      if (is_sun)
+        scene.lights = {sun_from_above()};
+      else
+        add_polygon(scene, "lamp", lamp, diffuse(0.0, 1e4));
+      add_polygon(scene, "blade", {{-3, height, -3}, {-3, height, 3}, {edge, height, 3}, {edge, height, -3}},
+                  double_sided(diffuse(0.0)));
+      const SolvedFloor floor(std::move(scene), 1.0);
+      const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, half, 100), 1.0, {.finest = 0.2});
+      for (const double z : {-0.501, 0.237, 0.4})
+        EXPECT_NEAR(place_of_edge(floor, view.field, edge - 2.0 * pixel, edge + 2.0 * pixel, z), edge, pixel / 40.0)
+            << (is_sun ? "sun" : "lamp") << " at " << edge / pixel << " pixels, z " << z;
+    }
+}
+
 } // namespace
 } // namespace meninas::test
