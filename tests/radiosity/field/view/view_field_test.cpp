@@ -286,14 +286,15 @@ TEST(ViewField, EdgesAlongTheLatticeAreInTheirPlace) {
   const std::vector<Point3> lamp{{-0.01, 2, -0.01}, {0.01, 2, -0.01}, {0.01, 2, 0.01}, {-0.01, 2, 0.01}};
   for (const bool is_sun : {true, false})
     for (int k = 0; k < 8; ++k) {
-      const double edge = (0.3 + 0.37 * k) * pixel, height = is_sun ? 1.0 : 0.1;
+      const double edge = (0.3 + 0.37 * k) * pixel, height = is_sun ? 1.0 : 0.1, up = 2.0,
+                   blade = is_sun ? edge : edge * (up - height) / up;
       Scene scene;
       add_floor(scene);
       if (is_sun)
         scene.lights = {sun_from_above()};
       else
         add_polygon(scene, "lamp", lamp, diffuse(0.0, 1e4));
-      add_polygon(scene, "blade", {{-3, height, -3}, {-3, height, 3}, {edge, height, 3}, {edge, height, -3}},
+      add_polygon(scene, "blade", {{-3, height, -3}, {-3, height, 3}, {blade, height, 3}, {blade, height, -3}},
                   double_sided(diffuse(0.0)));
       const SolvedFloor floor(std::move(scene), 1.0);
       const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, half, 100), 1.0, {.finest = 0.2});
