@@ -63,9 +63,9 @@ PassOneQuality pass_one_quality(Quality quality) {
   return {};
 }
 
-double link_error_for(double elements) {
+double link_error_for(double rays) {
   const PassOneQuality normal = pass_one_quality(Quality::normal);
-  const double error = normal.link_error * std::sqrt(normal.target_elements / elements);
+  const double error = normal.link_error * std::sqrt(normal.rays / rays);
   return std::round(1e4 * error) * 1e-4;
 }
 

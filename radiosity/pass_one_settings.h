@@ -57,8 +57,8 @@ struct PassOneQuality {
 };
 PassOneQuality pass_one_quality(Quality quality);
 
-/// The presets' link errors, between them and beyond: X = X_normal sqrt(N_normal / N), relative.
-double link_error_for(double elements);
+/// The presets' link errors, between them and beyond: X = X_normal sqrt(n_normal / n) of n rays an element, relative.
+double link_error_for(double rays);
 
 /// A user's choices for pass one; values that are not set follow from the quality.
 struct PassOneChoice {

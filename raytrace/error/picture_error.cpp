@@ -161,11 +161,14 @@ struct SourceSettings {
 /// The squared error of direct light in the mean of a pixel.
 /// Cells as small as pixels are off to either side of edges: several rays in fewer pixels tell means with less noise.
 double error_of_means(Probing& probe, SourceSettings settings, const ProbeChoice& choice, PictureError& error) {
-  constexpr int rays = 16, fewer = 4;
+  constexpr int rays = 16, fewer = 4, shadow_rays = 16; // from each of these
   const std::size_t count = (choice.pixels.size() + fewer - 1) / fewer;
   const auto pixels = std::span(choice.pixels).first(count);
   auto& [exact, shown] = settings;
   exact.samples = shown.samples = rays;
+  // All are sent whatever the first ones met: if few that agree counted as the whole, frames would hide nothing.
+  exact.diffuse.direct.penumbra_samples = PenumbraSamples::everywhere;
+  exact.diffuse.direct.penumbra_rays = exact.diffuse.direct.shadow_rays = shadow_rays;
   const auto off = [&](bool other, std::uint32_t draw) {
     const auto at = [&](const RenderSettings& render) { return other ? elsewhere(render) : render; };
     Radiances changes = probe(at(redrawn(exact, draw)), pixels);

@@ -17,7 +17,7 @@ RunSettings with_parameters(RunSettings settings, const FreeParameters& free, co
   if (free.elements)
     settings.elements = static_cast<int>(parameters.elements);
   if (!settings.link_error && mesh_cut(settings) == MeshCut::hierarchical)
-    settings.link_error = link_error_for(parameters.elements);
+    settings.link_error = link_error_for(parameters.rays);
   if (free.rays)
     settings.rays = parameters.rays;
   if (free.samples)
