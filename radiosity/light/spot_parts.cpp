@@ -1,6 +1,7 @@
 #include "radiosity/light/spot_parts.h"
 
 #include "radiosity/mesh/subdivision.h"
+#include "scenes/sampling.h"
 #include "scenes/surfaces/shells.h"
 
 #include <tbb/parallel_for.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace meninas {
 namespace {

@@ -1,6 +1,7 @@
 #include "scenes/repair/touching.h"
 
 #include "scenes/repair/common_place.h"
+#include "scenes/materials/texture_lookup.h"
 #include "scenes/rays/ray_contacts.h"
 #include "scenes/report/overlaps.h"
 #include "scenes/surfaces/point_tree.h"
