@@ -27,7 +27,8 @@ PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, doub
   if (light.distribution)
     falloff *= intensity_at(*light.distribution,
                             glm::transpose(light.frame) * (from_light / std::sqrt(distance2)));
-  return {light.position, light.intensity * (falloff / distance2)};
+  const Rgb from_foot = 2.0 * std::max(0.0, cosine) * light.foot_reflectance;
+  return {light.position, light.intensity * (falloff + from_foot) / distance2};
 }
 
 } // namespace meninas

@@ -118,6 +118,7 @@ void add_light(ContentHash& hash, const PunctualLight& light) {
   hash.add(light.direction);
   hash.add(light.inner_cone);
   hash.add(light.outer_cone);
+  hash.add(light.foot_reflectance);
   if (!light.distribution)
     return;
   for (int axis = 0; axis < 3; ++axis)

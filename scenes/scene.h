@@ -79,6 +79,7 @@ struct PunctualLight {
   std::shared_ptr<const IntensityDistribution> distribution = nullptr;
   glm::dmat3 frame{1.0}; ///< columns: the axes, of unit length, that the distribution is told in
   std::string lamp = {}; ///< as of Node
+  Rgb foot_reflectance{0.0}; ///< rho of the diffuse face in whose plane a point light was (repair/touching.h)
 };
 
 /// EXT_lights_area (area_light.h).

@@ -55,7 +55,7 @@ std::vector<ElementId> by_themselves(const LightScene& light, std::span<const Co
     return state != VertexState::covered && state != VertexState::smoothed;
   };
   const auto is_at_spot = [&](ElementId element) {
-    return !narrow_spots(mesh, light.worlds, light.punctual, element).empty();
+    return !spots_on(mesh, light.worlds, light.punctual, element).empty();
   };
   const bool all = element_count(mesh) <= groups;
   std::vector<ElementId> elements;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace meninas {
 
@@ -56,17 +57,17 @@ ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
   return light;
 }
 
-/// The irradiance from one punctual light at a point in the worlds that are wanted.
-Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& receiver,
-                  const std::function<bool(WorldId)>& wanted, DirectWorkspace& work) {
+/// The irradiance at a point from the light of a spot, in its world.
+Rgb arriving_from(const Lighting& light, const SpotPart& part, const Receiver& receiver,
+                  DirectWorkspace& work) {
   constexpr double beyond = 8.0; // in the frame the scene is 2 wide
   const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   seen_worlds(light.worlds, observer, work.seen);
-  punctual_images(light.worlds, std::span(light.punctual).subspan(number, 1), work.seen, observer,
+  punctual_images(light.worlds, std::span(light.punctual).subspan(part.light, 1), work.seen, observer,
                   beyond / light.scene.rays.frame().scale, work.images);
   Rgb sum(0.0);
   for (const PunctualImage& image : work.images) {
-    if (!wanted(image.world))
+    if (image.world != part.world)
       continue;
     fold(light.scene, image.world,
          {receiver.position, image.position, receiver.plane_class, none<PlaneId>}, work.folded[0],
@@ -93,36 +94,13 @@ double exposed_area(const Receiving& r) {
 
 /// The light of a spot over its part, W: where something stands its shadow rays end.
 Rgb power_on(const Receiving& r, const SpotPart& part, DirectWorkspace& work) {
-  ReceiverArea lit = r.area;
-  lit.region = &part.lit;
   constexpr int points = 256;
   const std::uint32_t seed = hash(r.seed, part.light, index(part.world));
   Rgb sum(0.0);
   for (int k = 0; k < points; ++k) {
     const Vec2 st(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::first));
-    sum += arriving_from(
-        r.light, part.light, r.at(point_in(lit, st)),
-        [&](WorldId world) { return world == part.world; }, work);
-  }
-  return part.lit.area_up_to.back() / points * sum;
-}
-
-/// The mean of punctual lights and their images but for those of `parts`.
-Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWorkspace& work) {
-  constexpr int points = 64;
-  Rgb sum(0.0);
-  std::uint32_t next = 0;
-  for (int k = 0; k < points; ++k) {
-    const NumberedPlace place = next_open_point(r.light.scene, r.area, r.covered, r.seed, next);
-    next = place.number + 1;
-    for (std::uint32_t number = 0; number < r.light.punctual.size(); ++number) {
-      const auto wanted = [&](WorldId world) {
-        return std::ranges::none_of(parts, [&](const SpotPart& part) {
-          return part.light == number && part.world == world;
-        });
-      };
-      sum += arriving_from(r.light, number, r.at(point_in(r.area, place.st)), wanted, work);
-    }
+    const SpotSample sample = sample_spot(part, st);
+    sum += sample.area * arriving_from(r.light, part, r.at(sample.at), work);
   }
   return sum / static_cast<double>(points);
 }
@@ -147,23 +125,18 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
                     covered,
                     hash(index(element), settings.seed, 0xd17ec7),
                     settings};
+  work.spots = spots_on(light.scene.mesh, light.worlds, light.punctual, element);
+  std::erase_if(work.spots, [](const SpotPart& part) { return part.is_whole(); });
   const ArrivingLight shared = shared_mean(r, work);
-  auto parts = narrow_spots(light.scene.mesh, light.worlds, light.punctual, element);
-  std::erase_if(parts, [](const SpotPart& part) { return part.is_whole(); });
-  if (parts.empty())
-    return {shared.total, shared.entering};
-  Rgb power(0.0);
-  ArrivedByLamp by_lamp = work.point.by_lamp; // of spots: as much as they bring to all points
-  for (const SpotPart& part : parts) {
-    const Rgb by_spot = power_on(r, part, work.point);
-    power += by_spot;
+  const std::vector<SpotPart> spots = std::exchange(work.spots, {});
+  Rgb punctual(0.0);
+  for (const SpotPart& part : spots) {
+    const Rgb by_spot = power_on(r, part, work.point) / exposed_area(r);
+    punctual += by_spot;
     if (light.lamps)
-      by_lamp[light.lamps->of_punctual[part.light]] += by_spot / exposed_area(r);
+      work.point.by_lamp[light.lamps->of_punctual[part.light]] += by_spot;
   }
-  const Rgb punctual = power / exposed_area(r) + mean_of_others(r, parts, work.point);
-  work.point.by_lamp = std::move(by_lamp);
-  const Rgb others = glm::max(shared.total - shared.punctual, Rgb(0.0));
-  return {others + punctual, glm::max(shared.entering - shared.punctual, Rgb(0.0)) + punctual};
+  return {shared.total + punctual, shared.entering + punctual};
 }
 
 MeansOfAreas

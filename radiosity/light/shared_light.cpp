@@ -272,6 +272,11 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
   ++sum.punctual_points;
   punctual_arrivals(light, receiver, work.point, work.arrivals);
   for (const PunctualArrival& arrival : work.arrivals) {
+    const auto is_of = [&](const SpotPart& part) {
+      return part.light == arrival.light && part.world == arrival.world;
+    };
+    if (std::ranges::any_of(work.spots, is_of))
+      continue;
     if (light.lamps)
       sum.punctual_by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
     const Rgb mirrored = arrival.world != real_world ? arrival.irradiance : Rgb(0.0);

@@ -21,6 +21,7 @@
 #include "radiosity/light/element_images.h"
 #include "radiosity/light/image_sums.h"
 #include "radiosity/light/light_samples.h"
+#include "radiosity/light/spot_parts.h"
 #include "radiosity/light/waiting_rays.h"
 
 #include <functional>
@@ -65,6 +66,7 @@ struct SharedLightWorkspace {
   WaitingRays waiting;
   ElementImages elements;
   std::vector<PunctualArrival> arrivals;
+  std::vector<SpotPart> spots; ///< of lights that are left out of the means
   double shadow_error = 0.0; ///< of the last mean, about, by the choice of shadow rays: its brightest channel, W/m^2
   bool has_new_occluders = false;  ///< something that blocks, from the last mean
   /// By world and emitter. Kept from mean to mean until it is cleared:

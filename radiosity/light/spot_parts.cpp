@@ -2,6 +2,7 @@
 
 #include "radiosity/mesh/subdivision.h"
 #include "scenes/sampling.h"
+#include "scenes/surfaces/shells.h"
 
 #include <tbb/parallel_for.h>
 
@@ -9,9 +10,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace meninas {
 namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using Triangles = std::vector<std::array<Point3, 3>>;
 
@@ -58,7 +62,7 @@ struct Cone {
 
   double width_at(const Point3& x) const {
     return angle < 0.5 * std::numbers::pi ? 2.0 * glm::distance(apex, x) * std::tan(angle)
-                                          : std::numeric_limits<double>::infinity();
+                                          : infinite;
   }
 
   /// The polygon within the pyramid around the cone.
@@ -75,35 +79,52 @@ struct Cone {
 
 Cone cone_in(const MirrorWorld& world, const PunctualLight& light) {
   return {apply(world.image, light.position), apply_direction(world.image, light.direction),
-          light.outer_cone};
+          light.kind == PunctualKind::spot ? light.outer_cone : std::numbers::pi};
 }
 
-void add_polygon(RegionElement& region, const ConvexPolygon& polygon) {
-  for (std::size_t k = 2; k < polygon.size; ++k) {
-    const std::array<Point3, 3> triangle{polygon.vertices[0], polygon.vertices[k - 1],
-                                         polygon.vertices[k]};
-    const double area = glm::length(area_vector(triangle));
-    if (!(area > 0.0))
+/// Adds a triangle in parts that are small as seen from y.
+void add_small(const std::array<Point3, 3>& triangle, const Point3& y, SpotPart& part) {
+  constexpr double small = 0.5; // longest edge over distance
+  constexpr int max_depth = 48;
+  std::vector<std::pair<std::array<Point3, 3>, int>> open{{triangle, 0}};
+  while (!open.empty()) {
+    const auto [corners, depth] = open.back();
+    open.pop_back();
+    std::size_t longest = 0;
+    const auto edge = [&](std::size_t k) { return glm::distance(corners[k], corners[(k + 1) % 3]); };
+    for (std::size_t k = 1; k < 3; ++k)
+      longest = edge(k) > edge(longest) ? k : longest;
+    const Point3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    if (depth < max_depth && edge(longest) > small * glm::distance(middle, y)) {
+      const Point3 &a = corners[longest], &b = corners[(longest + 1) % 3],
+                   &c = corners[(longest + 2) % 3];
+      open.push_back({{a, 0.5 * (a + b), c}, depth + 1});
+      open.push_back({{0.5 * (a + b), b, c}, depth + 1});
       continue;
-    region.triangles.push_back(triangle);
-    region.area_up_to.push_back(area +
-                                (region.area_up_to.empty() ? 0.0 : region.area_up_to.back()));
+    }
+    const double omega = std::abs(solid_angle(corners, y));
+    if (!(omega > 0.0))
+      continue;
+    part.triangles.push_back(corners);
+    part.solid_angle_up_to.push_back(
+        omega + (part.solid_angle_up_to.empty() ? 0.0 : part.solid_angle_up_to.back()));
   }
 }
 
-RegionElement part_within(const Cone& cone, const Triangles& triangles) {
-  RegionElement region;
+/// Fills the part of the triangles that is within the cone.
+void add_lit(const Cone& cone, const Triangles& triangles, SpotPart& part) {
   for (const auto& triangle : triangles) {
     ConvexPolygon polygon{std::span(triangle)};
-    cone.clip(polygon);
-    if (!polygon.empty())
-      add_polygon(region, polygon);
+    if (cone.angle < 0.5 * std::numbers::pi)
+      cone.clip(polygon);
+    for (std::size_t k = 2; k < polygon.size; ++k)
+      add_small({polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]}, cone.apex,
+                part);
   }
-  return region;
 }
 
 /// By ElementId, 1 where fewer than four elements lie across a spot.
-std::vector<std::uint8_t> under_narrow_spots(const ElementMesh& mesh, const Scene& scene,
+std::vector<std::uint8_t> under_spots_on(const ElementMesh& mesh, const Scene& scene,
                                              const WorldTree& worlds) {
   constexpr double wanted = 4.0;
   std::vector<std::uint8_t> marked(element_count(mesh), 0);
@@ -111,7 +132,7 @@ std::vector<std::uint8_t> under_narrow_spots(const ElementMesh& mesh, const Scen
     const auto element = static_cast<ElementId>(e);
     const double size = size_of(mesh, element);
     marked[e] =
-        std::ranges::any_of(narrow_spots(mesh, worlds, scene.lights, element),
+        std::ranges::any_of(spots_on(mesh, worlds, scene.lights, element),
                             [&](const SpotPart& part) { return part.width < wanted * size; });
   });
   return marked;
@@ -119,35 +140,49 @@ std::vector<std::uint8_t> under_narrow_spots(const ElementMesh& mesh, const Scen
 
 } // namespace
 
-std::vector<SpotPart> narrow_spots(const ElementMesh& mesh, const WorldTree& worlds,
-                                   std::span<const PunctualLight> lights, ElementId element) {
+SpotSample sample_spot(const SpotPart& part, Vec2 st) {
+  const std::vector<double>& up_to = part.solid_angle_up_to;
+  const double wanted = std::clamp(st.x, 0.0, 1.0) * up_to.back();
+  const auto k =
+      std::min(static_cast<std::size_t>(std::ranges::upper_bound(up_to, wanted) - up_to.begin()),
+               up_to.size() - 1);
+  const double before = k == 0 ? 0.0 : up_to[k - 1], own = up_to[k] - before;
+  const double root = std::sqrt(std::clamp((wanted - before) / own, 0.0, 1.0));
+  const auto& [a, b, c] = part.triangles[k];
+  return {(1.0 - root) * a + root * ((1.0 - st.y) * b + st.y * c),
+          glm::length(area_vector(part.triangles[k])) * up_to.back() / own};
+}
+
+std::vector<SpotPart> spots_on(const ElementMesh& mesh, const WorldTree& worlds,
+                               std::span<const PunctualLight> lights, ElementId element) {
   std::vector<SpotPart> parts;
-  const double widest = 16.0 * size_of(mesh, element);
   const auto is_spot = [](const PunctualLight& light) { return light.kind == PunctualKind::spot; };
-  if (std::ranges::none_of(lights, is_spot))
+  const auto is_somewhere = [](const PunctualLight& light) {
+    return light.kind != PunctualKind::directional;
+  };
+  if (std::ranges::none_of(lights, is_somewhere))
     return parts;
+  const double widest = 16.0 * size_of(mesh, element);
   const Direction& normal = mesh.sides[index(mesh.side_of_element[index(element)])].normal;
   const Triangles triangles = triangles_of(mesh, element);
   const Sphere sphere = around(triangles);
   for (std::uint32_t w = 0; w < worlds.worlds.size(); ++w)
     for (std::uint32_t k = 0; k < lights.size(); ++k) {
-      if (!is_spot(lights[k]))
+      if (!is_somewhere(lights[k]))
         continue;
       const MirrorWorld& world = worlds.worlds[w];
       const Cone cone = cone_in(world, lights[k]);
-      const double width = cone.width_at(sphere.centre);
-      const double distance = cone.distance(sphere.centre);
-      if (width > widest || distance > sphere.radius ||
+      const bool is_close = glm::distance(cone.apex, sphere.centre) < 2.0 * sphere.radius;
+      const double distance = is_spot(lights[k]) ? cone.distance(sphere.centre) : -widest;
+      const double width = is_spot(lights[k]) ? cone.width_at(sphere.centre) : infinite;
+      if ((width > widest && !is_close) || distance > sphere.radius ||
           !(glm::dot(cone.apex - sphere.centre, normal) > 0.0) ||
           (world.depth > 0 && signed_distance(world.plane, cone.apex) >= 0.0))
         continue;
-      SpotPart part{k,
-                    static_cast<WorldId>(w),
-                    2.0 * glm::distance(cone.apex, sphere.centre) * std::tan(cone.angle),
-                    {}};
-      if (distance > -sphere.radius) {
-        part.lit = part_within(cone, triangles);
-        if (part.lit.triangles.empty())
+      SpotPart part{k, static_cast<WorldId>(w), width, {}, {}};
+      if (distance > -sphere.radius || is_close) {
+        add_lit(cone, triangles, part);
+        if (part.is_whole())
           continue;
       }
       parts.push_back(std::move(part));
@@ -163,7 +198,7 @@ ElementMesh divide_under_spots(ElementMesh mesh, const Scene& scene, const Surfa
     return mesh;
   const std::size_t most = std::min(2 * element_count(mesh) + few, max_elements);
   for (int k = 0; k < max_divisions; ++k) {
-    const auto marked = under_narrow_spots(mesh, scene, worlds);
+    const auto marked = under_spots_on(mesh, scene, worlds);
     if (std::ranges::find(marked, 1) == marked.end())
       break;
     ElementMesh finer = divide_elements(mesh, surfaces, marked);

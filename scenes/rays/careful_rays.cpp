@@ -16,12 +16,13 @@ const Contacts& remembered_contacts(const RayScene& rays, ContactMemory& memory,
 /// The contact that blocks what departs from an origin over `extent`:
 /// a leg's whole length, or a ray's unit direction.
 std::optional<ContactTriangle> blocked_at_once(const RayScene& rays, const Contacts& contacts,
-                                               const LaneRay& ray, const Vec3& extent) {
+                                               const LaneRay& ray, const Vec3& extent,
+                                               bool is_leg) {
   if (contacts.others.empty())
     return std::nullopt;
   const auto& geometry = rays.geometry();
   return blocking_contact(contacts,
-                          {Point3(ray.origin), extent, geometry.plane_normals[ray.leaving]},
+                          {Point3(ray.origin), extent, geometry.plane_normals[ray.leaving], is_leg},
                           geometry.noise * double{grain_at(geometry, ray.origin)});
 }
 
@@ -56,7 +57,7 @@ LaneHit careful_hit(const RayScene& rays, const LaneRay& ray, Backs backs, Conta
   if (ray.leaving != no_index) {
     const auto& contacts = remembered_contacts(rays, memory, ray.origin, ray.leaving);
     const auto unit = glm::normalize(Vec3(ray.direction));
-    if (const auto wall = blocked_at_once(rays, contacts, ray, unit)) {
+    if (const auto wall = blocked_at_once(rays, contacts, ray, unit, false)) {
       const auto hit = hit_at_once(ray, *wall);
       if (hit.front || backs == Backs::absorb || wall->sidedness == Sidedness::both)
         return hit;
@@ -76,7 +77,7 @@ bool blocked_at_an_end(const RayScene& rays, const LaneRay& leg, std::uint32_t a
   const auto extent = static_cast<double>(leg.far) * Vec3(leg.direction);
   if (leg.leaving != no_index) {
     const auto& contacts = remembered_contacts(rays, memory, leg.origin, leg.leaving);
-    if (blocked_at_once(rays, contacts, leg, extent))
+    if (blocked_at_once(rays, contacts, leg, extent, true))
       return true;
   }
   if (arriving == no_index)
@@ -84,7 +85,7 @@ bool blocked_at_an_end(const RayScene& rays, const LaneRay& leg, std::uint32_t a
   auto back = leg;
   back.origin += leg.far * leg.direction;
   back.leaving = arriving;
-  return blocked_at_once(rays, contacts_of(rays, back.origin, arriving), back, -extent).has_value();
+  return blocked_at_once(rays, contacts_of(rays, back.origin, arriving), back, -extent, true).has_value();
 }
 
 } // namespace meninas

@@ -19,7 +19,8 @@ void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uin
     return;
   auto& list = facts.plane == leaving ? contacts.own : contacts.others;
   list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
-                  facts.single_sided ? Sidedness::single : Sidedness::both, corners_of(geometry, triangle)});
+                  facts.single_sided ? Sidedness::single : Sidedness::both, facts.glass,
+                  corners_of(geometry, triangle)});
 }
 
 struct ContactQuery {

@@ -14,6 +14,7 @@ namespace {
 constexpr double max_tests = 2e7; // of a triangle beside a plane: some hundredths of a second
 constexpr std::size_t max_slabs =
     64; // of a plane; to test more takes longer than to search for contacts
+constexpr double grazing = 0.05; ///< sine: the lift passes a band 20 times as wide as it is high
 constexpr double float_rounding = 1e-6; // of a height, generously, in [-1, 1]
 
 struct Box {
@@ -68,13 +69,20 @@ std::vector<Box> boxes_of(const FrameGeometry& geometry) {
   return boxes;
 }
 
+/// What comes near a plane.
+struct Neighbours {
+  std::vector<std::uint32_t> planes;
+  bool graze = false; ///< one that is not glass crosses it at a small angle
+};
+
 /// The plane classes of the triangles that come near a plane within the box of its surfaces.
 /// `boxes` by triangle: most are far away.
-std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, std::span<const Box> boxes,
+Neighbours planes_near(const FrameGeometry& geometry, std::span<const Box> boxes,
                                        const Extent& extent, std::uint32_t plane, double reach) {
   const auto margin = extent.grain * (2.0 * reach + float_rounding);
   const auto& normal = geometry.plane_normals[plane];
-  std::vector<std::uint32_t> found;
+  Neighbours near;
+  std::vector<std::uint32_t>& found = near.planes;
   for (std::uint32_t t = 0; t < geometry.triangles.size() && found.size() <= max_slabs; ++t) {
     if (!overlap(extent.box, boxes[t], margin))
       continue;
@@ -87,10 +95,14 @@ std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, std::span<
     const auto [low, high] = std::ranges::minmax(heights);
     if (low > extent.high + margin || high < extent.low - margin)
       continue;
+    const double rounding = extent.grain * float_rounding;
+    near.graze |= low < extent.low - rounding && high > extent.high + rounding &&
+                  !geometry.facts[t].glass &&
+                  glm::length(glm::cross(normal, geometry.plane_normals[other])) < grazing;
     if (std::ranges::find(found, other) == found.end())
       found.push_back(other);
   }
-  return found;
+  return near;
 }
 
 /// `margin` is how far around it a point is not off it.
@@ -132,19 +144,22 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach) {
       std::min(extents.size(), static_cast<std::size_t>(std::ceil(max_tests / triangles)));
   const auto order = by_size(extents);
   const std::vector<Box> boxes = boxes_of(geometry);
-  std::vector<std::vector<std::uint32_t>> found(tested);
+  std::vector<Neighbours> found(tested);
   tbb::parallel_for(std::size_t{0}, tested, [&](std::size_t p) {
     found[p] = planes_near(geometry, boxes, extents[order[p]], order[p], reach);
   });
 
   NearPlanes near;
   near.ranges.resize(extents.size());
+  near.is_grazed.assign(extents.size(), 0);
   for (std::size_t p = 0; p < tested; ++p) {
-    if (found[p].size() > max_slabs)
+    near.is_grazed[order[p]] = found[p].graze ? 1 : 0;
+    near.any_grazed |= found[p].graze;
+    if (found[p].planes.size() > max_slabs)
       continue;
     const auto begin = static_cast<std::uint32_t>(near.slabs.size());
     const double margin = extents[order[p]].grain * (reach + float_rounding);
-    for (const auto other : found[p])
+    for (const auto other : found[p].planes)
       near.slabs.push_back(slab_of(geometry.plane_normals[other], extents[other], margin));
     near.ranges[order[p]] = {begin, static_cast<std::uint32_t>(near.slabs.size())};
   }
@@ -169,6 +184,16 @@ std::uint32_t lanes_off_all_else(const NearPlanes& near, const RayPacket& packet
         together & bits_of(lanes_off(std::span(near.slabs).subspan(begin, end - begin), packet));
   }
   return certain;
+}
+
+std::uint32_t lanes_at_grazing_faces(const NearPlanes& near, const RayPacket& packet) {
+  std::uint32_t grazed = 0;
+  if (!near.any_grazed)
+    return grazed;
+  for (std::uint32_t k = 0; k < packet.count; ++k)
+    if (packet.leaving[k] < near.is_grazed.size() && near.is_grazed[packet.leaving[k]] != 0)
+      grazed |= 1U << k;
+  return grazed & ~lanes_off_all_else(near, packet, grazed);
 }
 
 } // namespace meninas

@@ -1,6 +1,11 @@
 // The planes that come near a surface: a point of it that is off all of them touches nothing else.
 //
 // This test takes sixteen rays at a time and spares a search for contacts per ray (careful_rays.h).
+//
+// Rays start a lift off the plane they leave (lanes.h). A face that crosses that plane at the angle a
+// is passed by the lift within lift / sin a of the line where they cross: of a pane that rounding has
+// tilted by 20 um against the sheet behind it that is a fifth. A ray behind a wall of a closed room meets
+// backs, which tells; behind a sheet between two rooms it meets fronts: rays that leave such planes are looked at.
 #pragma once
 
 #include "scenes/rays/frame_geometry.h"
@@ -24,6 +29,8 @@ struct NearPlanes {
   };
   std::vector<Range> ranges;
   std::vector<Slab> slabs;
+  std::vector<std::uint8_t> is_grazed; ///< by plane class: crossed by another face at a small angle
+  bool any_grazed = false;
 };
 
 /// Slabs around all that comes within `reach` of a surface.
@@ -34,5 +41,8 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach);
 /// on the plane its ray leaves, certainly touches nothing else.
 std::uint32_t lanes_off_all_else(const NearPlanes& near, const RayPacket& packet,
                                  std::uint32_t asked);
+
+/// The lanes whose origin, on a plane that is crossed at a small angle, may touch what crosses it.
+std::uint32_t lanes_at_grazing_faces(const NearPlanes& near, const RayPacket& packet);
 
 } // namespace meninas

@@ -21,9 +21,18 @@ Direction normal_of(const ContactTriangle& contact) {
   return glm::normalize(area_vector(contact.corners));
 }
 
+/// Whether what a departing ray leaves and the wall are the same to rounding at its origin.
+bool are_one(const ContactTriangle& wall, const Direction& wall_normal, const Departure& departure,
+             double noise) {
+  constexpr double along = 0.05; // sine
+  return wall.sidedness == Sidedness::both &&
+         std::abs(glm::dot(wall_normal, departure.origin - wall.corners[0])) <= noise &&
+         glm::length(glm::cross(wall_normal, departure.plane_normal)) <= along;
+}
+
 // The side of the wall on which the point's own surface lies: +1 in front, -1 behind.
 double own_side(const Contacts& contacts, const ContactTriangle& wall, const Direction& wall_normal,
-                const Point3& origin, double noise) {
+                const Departure& departure, double noise) {
   double low = 0.0;
   double high = 0.0;
   for (const auto& own : contacts.own)
@@ -37,9 +46,14 @@ double own_side(const Contacts& contacts, const ContactTriangle& wall, const Dir
   if (high <= noise && low < -noise)
     return -1.0;
 
-  // A surface that passes through below the wall does not tell:
-  // the point does, as far as it can be known.
-  const auto height = glm::dot(wall_normal, origin - wall.corners[0]);
+  // A surface that passes through below the wall does not tell.
+  if (are_one(wall, wall_normal, departure, noise)) {
+    const bool passes = departure.is_leg || std::ranges::any_of(contacts.own, &ContactTriangle::glass);
+    const bool rises = glm::dot(departure.direction, wall_normal) > 0.0;
+    return rises == passes ? -1.0 : 1.0;
+  }
+  // The point does, as far as it can be known.
+  const auto height = glm::dot(wall_normal, departure.origin - wall.corners[0]);
   if (std::abs(height) <= noise && wall.sidedness == Sidedness::single)
     return 1.0;
   return height < 0.0 ? -1.0 : 1.0;
@@ -110,7 +124,7 @@ std::optional<ContactTriangle> blocking_contact(const Contacts& contacts,
       continue;
     if (!rises_above(wall, departure, noise))
       continue;
-    const auto approach = along * own_side(contacts, wall, normal, departure.origin, noise);
+    const auto approach = along * own_side(contacts, wall, normal, departure, noise);
     if (approach < 0.0)
       continue;
     blocker = wall;

@@ -5,6 +5,9 @@
 // Whether a ray from there meets that wall is not decided by the rounded point but by the surfaces:
 // the point lies on that side of the wall W where its own surface P is,
 // and W stands in the way where it rises above P.
+// Where P crosses a W of two sides at a small angle and the point is nearer to W than rounding, either may be
+// before the other. A ray met P, which is therefore before W, unless the ray goes on through P: W stands in the way
+// of rays through glass, and of legs, of which none is to pass between two rooms.
 // All lengths are in the frame of the ray scene.
 #pragma once
 
@@ -22,6 +25,7 @@ struct ContactTriangle {
   TriangleId triangle = none<TriangleId>;
   PlaneId plane = none<PlaneId>;
   Sidedness sidedness = Sidedness::single;
+  bool glass = false;
   std::array<Point3, 3> corners{};
 };
 
@@ -37,6 +41,7 @@ struct Departure {
   Point3 origin;
   Vec3 direction;
   Direction plane_normal;
+  bool is_leg = false;
 };
 
 /// The weights of the second and third corner of the point of the triangle nearest to x.

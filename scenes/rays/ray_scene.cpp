@@ -113,6 +113,20 @@ void trace_through(const EmbreeHandles& impl, const RayPacket& packet, Coherence
   trace(impl.traced(), valid.data(), context, traced);
 }
 
+/// The lanes of legs of which an end may touch what crosses its plane at a small angle.
+std::uint32_t ends_at_grazing_faces(const NearPlanes& near, const RayPacket& legs) {
+  if (!near.any_grazed)
+    return 0;
+  RayPacket ends = legs;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    ends.origin_x[k] += legs.max_distance[k] * legs.direction_x[k];
+    ends.origin_y[k] += legs.max_distance[k] * legs.direction_y[k];
+    ends.origin_z[k] += legs.max_distance[k] * legs.direction_z[k];
+    ends.leaving[k] = legs.arriving[k];
+  }
+  return lanes_at_grazing_faces(near, legs) | lanes_at_grazing_faces(near, ends);
+}
+
 } // namespace
 
 void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits, Backs backs,
@@ -136,7 +150,9 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   }
   const auto off = lanes_off_all_else(impl.near_planes, packet, doubts.at_contact);
   ContactMemory memory;
-  for (auto rest = doubts.careful | (doubts.at_contact & ~off); rest != 0; rest &= rest - 1) {
+  const auto grazing = lanes_at_grazing_faces(impl.near_planes, packet) & bits_of(valid);
+  for (auto rest = doubts.careful | (doubts.at_contact & ~off) | grazing; rest != 0;
+       rest &= rest - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(rest));
     store(hits, k, careful_hit(rays, lane_ray(packet, k), backs, memory));
   }
@@ -162,7 +178,9 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
     met[k] = traced.tfar[k] < 0.0F ? valid[k] : 0;
   auto blocked = bits_of(met);
 
-  const auto open_ends = context.judge.touching & ~blocked;
+  const auto open_ends =
+      (context.judge.touching | ends_at_grazing_faces(impl.near_planes, packet)) & bits_of(valid) &
+      ~blocked;
   if (open_ends == 0)
     return blocked;
   ContactMemory memory;

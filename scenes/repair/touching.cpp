@@ -1,6 +1,7 @@
 #include "scenes/repair/touching.h"
 
 #include "scenes/repair/common_place.h"
+#include "scenes/materials/texture_lookup.h"
 #include "scenes/rays/ray_contacts.h"
 #include "scenes/report/overlaps.h"
 #include "scenes/surfaces/point_tree.h"
@@ -228,8 +229,8 @@ double side_of(const PunctualLight& light, const Plane& face, bool double_sided,
 }
 
 /// Puts a light before faces; the half-space before them is all that a point light shines on. Of
-/// the two sides of a sheet it takes that of the first.
-void settle(PunctualLight& light, std::vector<Plane> planes) {
+/// the two sides of a sheet it takes that of the first. `reflectance` is that of the face it is in.
+void settle(PunctualLight& light, std::vector<Plane> planes, const Rgb& reflectance) {
   std::erase_if(planes, [first = planes.front().normal](const Plane& plane) {
     return glm::dot(plane.normal, first) < -0.5;
   });
@@ -239,6 +240,8 @@ void settle(PunctualLight& light, std::vector<Plane> planes) {
   Vec3 out(0.0);
   for (const Plane& plane : planes)
     out += plane.normal;
+  if (!light.distribution && glm::length(out) > 0.999 * static_cast<double>(planes.size()))
+    light.foot_reflectance = reflectance;
   light.kind = PunctualKind::spot;
   light.direction = glm::normalize(out);
   light.inner_cone = light.outer_cone = 0.5 * std::numbers::pi;
@@ -303,6 +306,7 @@ std::vector<std::string> settle_lights(Scene& scene) {
     positions.push_back(light.position);
   const PointTree tree(positions);
   std::vector<std::vector<Plane>> planes(scene.lights.size());
+  std::vector<Rgb> reflectance(scene.lights.size(), Rgb(0.0));
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const Material& material = material_of(scene, TriangleId{t});
     if (is_glass(material) || material.alpha_mode != AlphaMode::opaque)
@@ -319,12 +323,14 @@ std::vector<std::string> settle_lights(Scene& scene) {
       const double side = side_of(light, face, material.double_sided, precision.in_detail());
       const Plane before = turned(face, side);
       planes[k].push_back({before.normal, before.offset + 2.0 * touch});
+      if (!is_textured(material))
+        reflectance[k] = diffuse_reflectance(material);
       return true;
     });
   }
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (!planes[k].empty()) {
-      settle(scene.lights[k], std::move(planes[k]));
+      settle(scene.lights[k], std::move(planes[k]), reflectance[k]);
       names.push_back(scene.lights[k].name);
     }
   return names;

@@ -17,8 +17,10 @@
 //   side to which it shines, a point light before the front of a face of one side. Before a face of
 //   two sides it stays on its side, if rounding does not make it, otherwise it comes to its front.
 //   An area light in the plane of such a face, and over it, is put 2 t before it, the way it shines.
-//   A point light there shines into the half-space before the face alone (a spot of 90 degrees):
-//   what it sends onto the face at its foot from no distance, nobody could see either.
+//   A point light there shines into the half-space before the face alone (a spot of 90 degrees): the
+//   spot at its foot is too small to be seen. The face reflects there rho of half of the light, which comes from the
+//   same place and is added to the light's own (punctual_light.h). Limits: not from a textured face, nor
+//   what luminaires send backwards, nor in an edge of two faces.
 #pragma once
 
 #include "scenes/scene.h"

@@ -1,4 +1,4 @@
-// Light of narrow spots arrives whatever the mesh is.
+// Light of narrow spots, and of lights close to a surface, arrives whatever the mesh is.
 #include "radiosity/light/element_light.h"
 #include "radiosity/light/spot_parts.h"
 #include "tests/radiosity/lit_scene.h"
@@ -66,6 +66,24 @@ TEST(SpotParts, ANarrowSpotArrivesOnAnyMesh) {
       EXPECT_NEAR(arrived(*lit(room_with(light), {.element_size = size})), power, 0.02 * power)
           << light.outer_cone << " " << size;
     }
+}
+
+// Half of the light falls about the foot, I / h^2 there: points of elements miss it, or
+// find it and take it for that of the whole element. Within 1 %: what two points make of
+// the elements that are farther away.
+TEST(SpotParts, LightOfALampCloseToTheCeilingArrives) {
+  for (const double height : {0.1, 1e-2, 3e-3, 1e-3, 1e-5})
+    for (const double size : {0.7, 0.2}) {
+      PunctualLight light = spot({0.137, 2.6 - height, 0.0959}, {0, -1, 0}, 0.0, 0.0);
+      light.kind = PunctualKind::point;
+      const double power = 4.0 * pi * light.intensity.r;
+      EXPECT_NEAR(arrived(*lit(room_with(light), {.element_size = size})), power, 0.01 * power)
+          << height << " " << size;
+    }
+  // A wide spot beside a wall, along it.
+  const PunctualLight grazing = spot({-1.499, 2.0, 0.0959}, {0, -1, 0}, 0.4, 0.9);
+  const double power = power_of(grazing);
+  EXPECT_NEAR(arrived(*lit(room_with(grazing), {.element_size = 0.3})), power, 0.02 * power);
 }
 
 // Triangles, and elements that a table's foot cuts: the spot falls beside it, its means are over

@@ -268,5 +268,43 @@ TEST(RaySceneBuild, HitsAreTheSameHoweverManyThreadsBuiltIt) {
   }
 }
 
+// Two sheets cross at 40 um a metre: the lift off one passes the other within 4 cm of the line where they
+// cross. Behind that is another room, whose walls show their fronts and tell nothing.
+TEST(CrossingSheets, NothingPassesFromRoomToRoom) {
+  using namespace test;
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(diffuse(0.5));
+  add_room(scene, {-2, -2, -2}, {2, 2, 2}, walls);
+  const NodeId sheet =
+      add_polygon(scene, "sheet", {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}},
+                  double_sided(diffuse(0.5)));
+  const double slope = 4e-5;
+  const NodeId tilted = add_polygon(
+      scene, "tilted",
+      {{-1, -1.9, -slope}, {1, -1.9, slope}, {1, 1.9, slope}, {-1, 1.9, -slope}},
+      double_sided(diffuse(0.5)));
+  const SurfaceModel surfaces = find_surfaces(scene);
+  const RayScene rays = make_ray_scene(scene, surfaces);
+  PlaneId plane = none<PlaneId>;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (scene.triangles[t].node == tilted)
+      plane = surfaces.plane_of_triangle[t];
+  for (const double height : {1.4e-6, 1.6e-6, 1.8e-6})
+    for (const double side : {1.0, -1.0})
+      for (const double y : {-1.85, -1.7, 1.72, 1.86}) {
+        const Point3 x(side * height / slope, y, side * height); // on the tilted sheet, before the other
+        const auto hit =
+            closest_hit(rays, {x, glm::normalize(Vec3(0.2, 0.1, -side)), plane}, Backs::absorb);
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_EQ(scene.triangles[index(hit->triangle)].node, sheet) << height << " " << y;
+        EXPECT_EQ(hit->front, side > 0.0) << "from its own room";
+        // From the other room the sheet is before it.
+        EXPECT_TRUE(occluded(rays, {{0.3, 0.2, -1.5 * side}, x, none<PlaneId>, plane}));
+        EXPECT_TRUE(occluded(rays, {x, {0.3, 0.2, -1.5 * side}, plane, none<PlaneId>}));
+        EXPECT_FALSE(occluded(rays, {{0.3, 0.2, 1.5 * side}, x, none<PlaneId>, plane}));
+      }
+}
+
 } // namespace
 } // namespace meninas
