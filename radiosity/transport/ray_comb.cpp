@@ -2,16 +2,15 @@
 
 #include "scenes/sampling.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace meninas {
 
 std::size_t max_rays(const Bounces& bounces) {
-  constexpr std::size_t unlimited_bounces = 64, fewest = 16; // a packet of rays takes as long as one of them
+  constexpr std::size_t unlimited_bounces = 64;
   if (bounces.done <= unlimited_bounces)
     return std::numeric_limits<std::size_t>::max();
-  return unlimited_bounces * std::max(bounces.sent_on, fewest) / bounces.done;
+  return unlimited_bounces * bounces.sent_on / bounces.done;
 }
 
 void comb_rays(std::vector<MirroredRay>& rays, const Bounces& bounces, std::uint32_t seed) {

@@ -4,7 +4,7 @@
 // until their throughput or their bounces end them, thousands of legs each. So of the n_1 rays of a receiver
 // that mirrors send on, after k > 64 bounces there may be
 //
-//   n_k = 64 max(n_1, 16) / k.
+//   n_k = 64 n_1 / k.
 //
 // Where there are more, of every two neighbours a and b one goes on for both (the comb of Booth 1996):
 //
