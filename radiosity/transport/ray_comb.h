@@ -25,7 +25,7 @@ struct Bounces {
   std::size_t sent_on = 0; ///< n_1
 };
 
-/// The legs that rays may have at most after so many bounces, n_k; without limit up to 64.
+/// The most rays that go on after so many bounces, n_k; without limit up to 64.
 std::size_t max_rays(const Bounces& bounces);
 
 /// Where there are more than max_rays(), half of them stay, in their order. The seed is that of the receiver.
