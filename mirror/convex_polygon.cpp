@@ -110,30 +110,48 @@ bool is_point(const ConvexPolygon& polygon, const Point3& apex) {
   return true;
 }
 
-ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
-                           const ConvexPolygon& window) {
+ViewCone view_cone(const Point3& apex, const ConvexPolygon& window) {
+  ViewCone cone;
   if (window.empty())
-    return {};
-
+    return cone;
   // Seen from the apex the window runs clockwise when its area vector points away from the apex.
   const double side = glm::dot(area_vector(window.span()), window.vertices[0] - apex);
   if (side == 0.0)
-    return {};
-  ConvexPolygon part = polygon;
+    return cone;
   const double shortest = shortest_edge(window, apex);
-  bool has_edges = false;
   Point3 from = window.vertices[window.size - 1];
-  for (std::size_t k = 0; k < window.size && !part.empty(); ++k) {
-    const Point3& to = window.vertices[k];
+  for (const Point3& to : window.span()) {
     if (glm::distance(from, to) < shortest)
       continue;
-    has_edges = true;
     const Vec3 a = from - apex, b = to - apex;
     from = to;
-    const Vec3 inward = side > 0.0 ? glm::cross(a, b) : glm::cross(b, a);
-    clip_in_place(part, apex, inward);
+    cone.push_back(side > 0.0 ? glm::cross(a, b) : glm::cross(b, a));
   }
-  return has_edges ? part : ConvexPolygon();
+  return cone;
+}
+
+ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ViewCone& cone) {
+  if (cone.size == 0)
+    return {};
+  // Most polygons are outside of a plane, or inside of all: they are copied where one cuts them.
+  Distances distance;
+  for (std::size_t k = 0; k < cone.size; ++k) {
+    const Kept kept = measure(polygon, apex, cone.inward[k], distance);
+    if (kept == Kept::nothing)
+      return {};
+    if (kept == Kept::all)
+      continue;
+    ConvexPolygon part = positive_part(polygon, distance);
+    while (++k < cone.size && !part.empty())
+      clip_in_place(part, apex, cone.inward[k]);
+    return part;
+  }
+  return polygon;
+}
+
+ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
+                           const ConvexPolygon& window) {
+  return clip_to_cone(polygon, apex, view_cone(apex, window));
 }
 
 ConvexPolygon apply(const Isometry& map, const ConvexPolygon& polygon) {

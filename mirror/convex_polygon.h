@@ -39,10 +39,32 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
 /// The same of a polygon that is not needed whole any more.
 void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
 
-/// The part of the polygon inside the cone from the apex through the window:
-/// one clip per edge of the window.
-/// The window may be of either orientation;
-/// an apex in the window's plane sees nothing, nor does one that looks through a point.
+/// The cone from an apex through a window: the planes through the apex a and the edges from p to q,
+///
+///   n = (p - a) x (q - a), inwards, m^2
+///
+/// without those of edges that are as short as their rounding.
+/// The window may be of either orientation. An apex in the window's plane sees nothing,
+/// nor does one that looks through a point: then there is no plane.
+struct ViewCone {
+  std::array<Vec3, ConvexPolygon::capacity> inward;
+  std::size_t size = 0;
+
+  ViewCone() {} // as ConvexPolygon, so that vectors of them copy what is in use
+  ViewCone(const ViewCone& other) { *this = other; }
+  ViewCone& operator=(const ViewCone& other) {
+    size = other.size;
+    for (std::size_t k = 0; k < size; ++k)
+      inward[k] = other.inward[k];
+    return *this;
+  }
+  void push_back(const Vec3& normal) { inward[size++] = normal; }
+};
+
+ViewCone view_cone(const Point3& apex, const ConvexPolygon& window);
+
+/// The part of the polygon inside the cone from the apex: one clip per plane.
+ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ViewCone& cone);
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
                            const ConvexPolygon& window);
 

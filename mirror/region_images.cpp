@@ -200,15 +200,15 @@ void lights_in_region(const WorldTree& tree, std::span<const Emitter> emitters,
                       const RegionImages& images, const Observer& observer, SeenWorlds& seen,
                       std::vector<VirtualLight>& lights) {
   lights.clear();
-  seen.worlds.clear();
-  seen.openings.clear();
+  seen.clear();
   for (const RegionWorld& at : images.worlds) {
     const MirrorWorld& world = tree.worlds[index(at.world)];
     const auto first = static_cast<std::uint32_t>(seen.openings.size());
     if (at.opens && at.whole)
-      seen.openings.insert(seen.openings.end(), world.window.begin(), world.window.end());
+      for (const ConvexPolygon& part : world.window)
+        seen.add_opening(observer, part);
     else if (at.opens)
-      add_openings(world, observer, seen.worlds[at.parent], seen.openings);
+      add_openings(world, observer, seen.worlds[at.parent], seen);
     seen.worlds.push_back({at.world, first, static_cast<std::uint32_t>(seen.openings.size())});
     for (std::uint32_t k = at.first; k < at.last; ++k) {
       const RegionImage& image = images.images[k];

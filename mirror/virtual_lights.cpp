@@ -6,7 +6,7 @@
 namespace meninas {
 
 void add_openings(const MirrorWorld& world, const Observer& observer, const SeenWorld& parent,
-                  std::vector<ConvexPolygon>& openings) {
+                  SeenWorlds& seen) {
   if (signed_distance(world.plane, observer.position) <= 0.0)
     return;
   for (const auto& part : world.window) {
@@ -14,13 +14,13 @@ void add_openings(const MirrorWorld& world, const Observer& observer, const Seen
     if (above.empty())
       continue;
     if (world.depth == 1) {
-      openings.push_back(above);
+      seen.add_opening(observer, above);
       continue;
     }
     for (std::uint32_t k = parent.first; k < parent.last; ++k) {
-      const ConvexPolygon seen = clip_to_cone(above, observer.position, openings[k]);
-      if (!seen.empty() && !is_point(seen, observer.position))
-        openings.push_back(seen);
+      const ConvexPolygon opening = clip_to_cone(above, observer.position, seen.cones[k]);
+      if (!opening.empty() && !is_point(opening, observer.position))
+        seen.add_opening(observer, opening);
     }
   }
 }
@@ -33,7 +33,7 @@ void walk(const WorldTree& tree, const Observer& observer, const SeenWorld& at, 
     if (next == none<WorldId>)
       continue;
     const auto first = static_cast<std::uint32_t>(seen.openings.size());
-    add_openings(tree.worlds[index(next)], observer, at, seen.openings);
+    add_openings(tree.worlds[index(next)], observer, at, seen);
     const auto last = static_cast<std::uint32_t>(seen.openings.size());
     if (last > first)
       walk(tree, observer, {next, first, last}, seen);
@@ -43,8 +43,7 @@ void walk(const WorldTree& tree, const Observer& observer, const SeenWorld& at, 
 } // namespace
 
 void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen) {
-  seen.worlds.clear();
-  seen.openings.clear();
+  seen.clear();
   walk(tree, observer, {}, seen);
 }
 
@@ -83,7 +82,7 @@ void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std:
   }
   clip_in_place(image, origin_of(world.plane), -world.plane.normal);
   for (std::uint32_t k = at.first; k < at.last && !image.empty(); ++k) {
-    const ConvexPolygon part = clip_to_cone(image, observer.position, sight.seen.openings[k]);
+    const ConvexPolygon part = clip_to_cone(image, observer.position, sight.seen.cones[k]);
     if (!part.empty())
       lights.push_back({emitter, at.world, part, plane.normal, weight});
   }

@@ -51,11 +51,22 @@ struct SeenWorld {
 struct SeenWorlds {
   std::vector<SeenWorld> worlds;
   std::vector<ConvexPolygon> openings;
+  std::vector<ViewCone> cones; ///< by opening, from the observer
+
+  void clear() {
+    worlds.clear();
+    openings.clear();
+    cones.clear();
+  }
+  void add_opening(const Observer& observer, const ConvexPolygon& opening) {
+    openings.push_back(opening);
+    cones.push_back(view_cone(observer.position, opening));
+  }
 };
 
 /// Appends the parts of a world's window that x sees through the visible parts of its parent's.
 void add_openings(const MirrorWorld& world, const Observer& observer, const SeenWorld& parent,
-                  std::vector<ConvexPolygon>& openings);
+                  SeenWorlds& seen);
 
 /// Clears and fills `seen`, whose storage is reused from call to call.
 void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen);

@@ -1,6 +1,7 @@
 #include "radiosity/transport/hemisphere_rays.h"
 
 #include "radiosity/transport/gather_legs.h"
+#include "radiosity/transport/ray_comb.h"
 #include "radiosity/scene/surface_colour.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
@@ -269,7 +270,9 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
 void follow_mirrors(const LightScene& light, const FormFactorSettings& settings, GatherWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
-  while (!work.next.empty()) {
+  Bounces bounces{1, work.next.size()};
+  for (; !work.next.empty(); ++bounces.done) {
+    comb_rays(work.next, bounces, work.seed);
     work.current.swap(work.next);
     work.next.clear();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {

@@ -108,7 +108,7 @@ TEST(ClipPolygon, PolygonInThePlaneIsOnItsPositiveSide) {
 TEST(ClipPolygon, EmptyStaysEmpty) {
   EXPECT_TRUE(clip({}, Point3(0.0), {1.0, 0.0, 0.0}).empty());
   EXPECT_TRUE(clip_to_cone({}, Point3(0.0), quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0})).empty());
-  EXPECT_TRUE(clip_to_cone(quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), Point3(0.0), {}).empty());
+  EXPECT_TRUE(clip_to_cone(quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), Point3(0.0), ConvexPolygon()).empty());
 }
 
 TEST(ClipPolygon, BeyondItsCapacityItErrsOnTheLargeSide) {
