@@ -66,7 +66,7 @@ PassOneQuality pass_one_quality(Quality quality) {
 double link_error_for(double rays) {
   const PassOneQuality normal = pass_one_quality(Quality::normal);
   const double error = normal.link_error * std::sqrt(normal.rays / rays);
-  return std::round(1e4 * error) * 1e-4;
+  return std::round(1e4 * error) / 1e4;
 }
 
 static double target_elements(const PassOneChoice& choice, const PassOneQuality& quality) {

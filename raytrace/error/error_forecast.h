@@ -5,7 +5,8 @@
 //
 //   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-e, e = 1 at
 //                  first; pass one r^0.7: nodes that light does not ask for are not divided
-//   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one 128 + rays: direct light costs about 128
+//   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one 128 + rays: direct light costs about 128. The
+//                  link error falls with r^-1/2
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.1 with `gather`; pass two in proportion to the
 //                  samples of the pixels that would take more
 //   direct         mesh_direct^2 becomes 0; the rest of mesh^2 counts as at least mesh_direct^2 / 100.

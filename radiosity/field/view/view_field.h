@@ -8,7 +8,7 @@
 //   abs(D - D_mean) - 2 noise  >  tolerance (H + H_dark)                   the hierarchical surplus.
 //
 // Within a pixel the bound is larger (view_refinement.h): cells are divided down to `finest`, so that edges end within
-// pixels.
+// pixels. In the cells where they end, the corners take the mean of D about them (cell_light.h).
 //
 // In a smooth place the surplus falls to a quarter with each level, at the edge of a shadow it stays: smooth light
 // costs few vertices, and an edge a row of cells as small as pixels. A cell beside smaller ones is
