@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -127,12 +128,17 @@ void add_lit(const Cone& cone, const Triangles& triangles, SpotPart& part) {
 std::vector<std::uint8_t> under_spots_on(const ElementMesh& mesh, const Scene& scene,
                                              const WorldTree& worlds) {
   constexpr double wanted = 4.0;
+  std::vector<PunctualLight> spots;
+  std::ranges::copy_if(scene.lights, std::back_inserter(spots),
+                       [](const PunctualLight& light) { return light.kind == PunctualKind::spot; });
   std::vector<std::uint8_t> marked(element_count(mesh), 0);
+  if (spots.empty())
+    return marked;
   tbb::parallel_for(std::size_t{0}, marked.size(), [&](std::size_t e) {
     const auto element = static_cast<ElementId>(e);
     const double size = size_of(mesh, element);
     marked[e] =
-        std::ranges::any_of(spots_on(mesh, worlds, scene.lights, element),
+        std::ranges::any_of(spots_on(mesh, worlds, spots, element),
                             [&](const SpotPart& part) { return part.width < wanted * size; });
   });
   return marked;

@@ -10,8 +10,8 @@
 //
 //   a with the chance w_a / (w_a + w_b), else b;   its weight is w_a + w_b, its throughput tau its own.
 //
-// The sum of the weights stays as it was, and so does that of w tau in the mean. A ray has 64 (1 + ln(k / 64)) legs at most in
-// the mean, 390 where ten thousand are the end. Between two facing mirrors 1 / k^2 of the rays are still under way,
+// The sum of the weights stays as it was, and so does that of w tau in the mean. A receiver has 64 n_1 (1 + ln(k / 64)) + k legs
+// at most: the last ray of all goes on. Between two facing mirrors 1 / k^2 of the rays are still under way,
 // far fewer than n_k: there, nothing changes.
 #pragma once
 

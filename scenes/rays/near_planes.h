@@ -4,8 +4,10 @@
 //
 // Rays start a lift off the plane they leave (lanes.h). A face that crosses that plane at the angle a
 // is passed by the lift within lift / sin a of the line where they cross: of a pane that rounding has
-// tilted by 20 um against the sheet behind it that is a fifth. A ray behind a wall of a closed room meets
-// backs, which tells; behind a sheet between two rooms it meets fronts: rays that leave such planes are looked at.
+// tilted by 20 um against the sheet behind it that is a fifth. A ray that has passed the wall of a closed room meets the
+// backs of faces, which shows the error. A ray that has passed a sheet between two rooms meets fronts. So rays that leave
+// such planes are traced with care. Limits: of planes beyond those that are tested (the largest ones: 2e7 triangles beside
+// planes), and of neighbours of one plane beyond the first 65, it is not known whether they cross.
 #pragma once
 
 #include "scenes/rays/frame_geometry.h"

@@ -47,8 +47,8 @@ double own_side(const Contacts& contacts, const ContactTriangle& wall, const Dir
     return -1.0;
 
   // A surface that passes through below the wall does not tell.
-  if (are_one(wall, wall_normal, departure, noise)) {
-    const bool passes = departure.is_leg || std::ranges::any_of(contacts.own, &ContactTriangle::glass);
+  if (!departure.is_leg && are_one(wall, wall_normal, departure, noise)) {
+    const bool passes = std::ranges::any_of(contacts.own, &ContactTriangle::glass);
     const bool rises = glm::dot(departure.direction, wall_normal) > 0.0;
     return rises == passes ? -1.0 : 1.0;
   }

@@ -7,7 +7,7 @@
 // and W stands in the way where it rises above P.
 // Where P crosses a W of two sides at a small angle and the point is nearer to W than rounding, either may be
 // before the other. A ray met P, which is therefore before W, unless the ray goes on through P: W stands in the way
-// of rays through glass, and of legs, of which none is to pass between two rooms.
+// of rays through glass. The ends of a leg were not met: they are where they are said to be.
 // All lengths are in the frame of the ray scene.
 #pragma once
 

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 
 namespace meninas {
 namespace {
@@ -228,12 +229,32 @@ double side_of(const PunctualLight& light, const Plane& face, bool double_sided,
   return double_sided && std::abs(height) > rounding ? height : 1.0;
 }
 
+/// A face that a light is in, by the side that it shines on.
+struct LitFace {
+  Plane before;
+  std::optional<Rgb> reflectance; ///< where it is the same everywhere on the face
+};
+
+/// The mean of several faces; none where that of one of them is not known.
+Rgb mean_reflectance(std::span<const LitFace> faces) {
+  Rgb sum(0.0);
+  for (const LitFace& face : faces) {
+    if (!face.reflectance)
+      return Rgb(0.0);
+    sum += *face.reflectance / static_cast<double>(faces.size());
+  }
+  return sum;
+}
+
 /// Puts a light before faces; the half-space before them is all that a point light shines on. Of
-/// the two sides of a sheet it takes that of the first. `reflectance` is that of the face it is in.
-void settle(PunctualLight& light, std::vector<Plane> planes, const Rgb& reflectance) {
-  std::erase_if(planes, [first = planes.front().normal](const Plane& plane) {
-    return glm::dot(plane.normal, first) < -0.5;
+/// the two sides of a sheet it takes that of the first.
+void settle(PunctualLight& light, std::vector<LitFace> faces) {
+  std::erase_if(faces, [first = faces.front().before.normal](const LitFace& face) {
+    return glm::dot(face.before.normal, first) < -0.5;
   });
+  std::vector<Plane> planes;
+  for (const LitFace& face : faces)
+    planes.push_back(face.before);
   light.position += way_into(light.position, planes);
   if (light.kind == PunctualKind::spot)
     return;
@@ -241,7 +262,7 @@ void settle(PunctualLight& light, std::vector<Plane> planes, const Rgb& reflecta
   for (const Plane& plane : planes)
     out += plane.normal;
   if (!light.distribution && glm::length(out) > 0.999 * static_cast<double>(planes.size()))
-    light.foot_reflectance = reflectance;
+    light.foot_reflectance = mean_reflectance(faces);
   light.kind = PunctualKind::spot;
   light.direction = glm::normalize(out);
   light.inner_cone = light.outer_cone = 0.5 * std::numbers::pi;
@@ -305,8 +326,7 @@ std::vector<std::string> settle_lights(Scene& scene) {
   for (const PunctualLight& light : scene.lights)
     positions.push_back(light.position);
   const PointTree tree(positions);
-  std::vector<std::vector<Plane>> planes(scene.lights.size());
-  std::vector<Rgb> reflectance(scene.lights.size(), Rgb(0.0));
+  std::vector<std::vector<LitFace>> faces(scene.lights.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const Material& material = material_of(scene, TriangleId{t});
     if (is_glass(material) || material.alpha_mode != AlphaMode::opaque)
@@ -322,15 +342,15 @@ std::vector<std::string> settle_lights(Scene& scene) {
       const Plane face{normal, glm::dot(normal, p[0])};
       const double side = side_of(light, face, material.double_sided, precision.in_detail());
       const Plane before = turned(face, side);
-      planes[k].push_back({before.normal, before.offset + 2.0 * touch});
-      if (!is_textured(material))
-        reflectance[k] = diffuse_reflectance(material);
+      faces[k].push_back({{before.normal, before.offset + 2.0 * touch}, std::nullopt});
+      if (!is_textured(material) && !has_vertex_colors(scene, TriangleId{t}))
+        faces[k].back().reflectance = diffuse_reflectance(material);
       return true;
     });
   }
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    if (!planes[k].empty()) {
-      settle(scene.lights[k], std::move(planes[k]), reflectance[k]);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (!faces[k].empty()) {
+      settle(scene.lights[k], std::move(faces[k]));
       names.push_back(scene.lights[k].name);
     }
   return names;

@@ -18,8 +18,8 @@ std::uint32_t seed_of(const ElementMesh& mesh, const LatticeVertex& vertex, std:
               seed, 0x71e3);
 }
 
-/// The mean of the points, again while rays have met occluders that were not known: each time by other rays, because
-/// those that have taught what blocks them have missed the rest.
+/// The mean of the points. Where its rays have met occluders that were not known before, it is found again, by other
+/// rays: an occluder that some rays hit is one that others have just missed, and the mean must not depend on which.
 template <typename MeanOf> ArrivingLight past_occluders(SharedLightWorkspace& work, const MeanOf& mean_of) {
   constexpr std::uint32_t times_learned = 4;
   ArrivingLight light = mean_of(0);

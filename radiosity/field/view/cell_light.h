@@ -5,8 +5,8 @@
 //
 //   D_v = 1/w^2 integral over abs(x - x_v) <= w/2, abs(y - y_v) <= w/2 of D(x, y) dx dy.
 //
-// The weights of a vertex in the interpolation add up to the same w^2, so the light of the cells stays what it is and an edge
-// is in its place within them. By vertices alone it would be in the middle of the cell that it crosses: off by up to w/2,
+// Among cells of one size the weights of a vertex in the interpolation add up to the same w^2, so the light of the cells stays
+// what it is and an edge is in its place within them. By vertices alone it would be in the middle of the cell that it crosses: off by up to w/2,
 // and along an edge parallel to the lattice to the same side everywhere.
 #pragma once
 
@@ -26,8 +26,8 @@ struct CellVertex {
 ArrivingLight direct_at(const LightScene& light, const CellVertex& vertex, double pixels,
                         const ViewRefinement& how, SharedLightWorkspace& work);
 
-/// The mean over the footprint of the vertex, of cells of that level. What lies beyond the border of the patch, or of an
-/// element in which something stands, is left out.
+/// The mean over the footprint of the vertex, of cells of that level. Points beyond the border of the patch, or of an
+/// element in which something stands, are mirrored at the vertex; the vertex stands for those that are beyond it there too.
 ArrivingLight mean_direct_around(const LightScene& light, const CellVertex& vertex, int level,
                                  const ViewRefinement& how, SharedLightWorkspace& work);
 

@@ -138,10 +138,10 @@ private:
       const LatticeCell& cell = cells_.cells()[c];
       const double pixels = seen_.pixels(c);
       if (cell.first_child == LatticeCell::leaf && pixels > 0.0 && pixels <= 0.5 && pixels * double{spread_of(cell)} > how_.tolerance)
-        for (const std::uint32_t v : cell.corners) {
-          std::uint8_t& level = levels[places_.first_of(v)];
-          level = std::max(level, cell.level);
-        }
+        for (const std::uint32_t v : cell.corners)
+          // Of the facets of a curve each has a lattice of its own, and the light of the first one's vertex.
+          if (const std::uint32_t first = places_.first_of(v); is_on_side_of(cell, first))
+            levels[first] = std::max(levels[first], cell.level);
     }
     std::vector<std::uint32_t> at_edges;
     for (std::uint32_t v = 0; v < levels.size(); ++v)
@@ -153,6 +153,11 @@ private:
     for (std::uint32_t v = 0; v < levels.size(); ++v)
       if (const std::uint32_t other = places_.first_of(v); other != v && levels[other] > 0)
         take_direct(lights_[other], lights_[v]);
+  }
+
+  bool is_on_side_of(const LatticeCell& cell, std::uint32_t vertex) const {
+    const auto& side_of = mesh_.side_of_element;
+    return side_of[index(cell.element)] == side_of[index(cells_.vertices()[vertex].element)];
   }
 
   static void take_direct(const VertexLight& from, VertexLight& light) {

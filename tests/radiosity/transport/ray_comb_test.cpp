@@ -15,7 +15,7 @@ std::vector<MirroredRay> rays_of(std::size_t count) {
   for (std::uint32_t k = 0; k < count; ++k) {
     rays[k].number = k;
     rays[k].weight = 0.5F + static_cast<float>(k % 3);
-    rays[k].throughput = glm::vec3(1.0F / (1.0F + static_cast<float>(k % 5)));
+    rays[k].throughput = glm::vec3(1.0F / (1.0F + static_cast<float>(k % 3)));
   }
   return rays;
 }
@@ -55,7 +55,8 @@ TEST(RayComb, KeepsAllWeightAndHalfOfTheRaysInTheirOrder) {
   }
 }
 
-// Over 20,000 seeds the mean is known to 0.1 %, by the spread of the pairs: w tau of a ray is 0.1 to 2.5.
+// Heavy rays are dim here: a choice that did not go by weight would change the mean. The light of a seed has a standard
+// deviation of 7 %, so the mean over 20,000 seeds is known to 0.05 %; four times that is allowed.
 TEST(RayComb, KeepsTheLightInTheMean) {
   constexpr std::uint32_t seeds = 20'000;
   double sum = 0.0;

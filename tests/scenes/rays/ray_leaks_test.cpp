@@ -304,6 +304,18 @@ TEST(CrossingSheets, NothingPassesFromRoomToRoom) {
         EXPECT_TRUE(occluded(rays, {x, {0.3, 0.2, -1.5 * side}, plane, none<PlaneId>}));
         EXPECT_FALSE(occluded(rays, {{0.3, 0.2, 1.5 * side}, x, none<PlaneId>, plane}));
       }
+  // Nearer to each other than the noise of the frame, 0.8 um, but not than the rounding of a point: no light is lost on the
+  // side that a leg ends on, and a ray goes on from the sheet that it met.
+  for (const double height : {0.4e-6, 0.6e-6})
+    for (const double side : {1.0, -1.0})
+      for (const double y : {-1.85, 1.72}) {
+        const Point3 x(side * height / slope, y, side * height);
+        EXPECT_FALSE(occluded(rays, {x, {0.3, 0.2, 1.5 * side}, plane, none<PlaneId>})) << height;
+        EXPECT_FALSE(occluded(rays, {{0.3, 0.2, 1.5 * side}, x, none<PlaneId>, plane})) << height;
+        const auto hit = closest_hit(rays, {x, glm::normalize(Vec3(0.2, 0.1, side)), plane}, Backs::absorb);
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_NE(scene.triangles[index(hit->triangle)].node, sheet) << height;
+      }
 }
 
 } // namespace

@@ -143,6 +143,35 @@ TEST(Touching, LightsInAFaceShineBeforeIt) {
       }
 }
 
+/// The foot's reflectance of a light in the plane of these faces, in this order.
+Rgb foot_reflectance(const std::vector<std::pair<Material, bool>>& faces_that_turn, bool black_vertices = false) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-2, -1.5, 4}, {2, -1.5, 4}, {2, -1.5, 0}, {-2, -1.5, 0}}, diffuse(0.5));
+  for (const auto& [material, turns] : faces_that_turn) {
+    auto quad = wall_quad(0.0);
+    if (turns)
+      std::ranges::reverse(quad);
+    add_polygon(scene, "face", quad, material);
+  }
+  if (black_vertices)
+    for (Vertex& vertex : scene.vertices)
+      own_attributes(scene, vertex).color = {0.0F, 0.0F, 0.0F, 1.0F};
+  scene.lights.push_back(light_at(0.0, PunctualKind::point));
+  settle_lights(scene);
+  return scene.lights[0].foot_reflectance;
+}
+
+TEST(Touching, WhatComesFromTheFootOfALightIsWhatItsOwnFaceReflects) {
+  Material red = diffuse(0.5);
+  red.base_color = {0.8, 0.4, 0.1};
+  EXPECT_EQ(foot_reflectance({{red, false}}), diffuse_reflectance(red));
+  // A floor without thickness: a ceiling below, another floor above. The light shines before the first.
+  EXPECT_EQ(foot_reflectance({{red, false}, {diffuse(0.1), true}}), diffuse_reflectance(red));
+  EXPECT_EQ(foot_reflectance({{diffuse(0.1), true}, {red, false}}), diffuse_reflectance(diffuse(0.1)));
+  // What a face reflects that is not the same everywhere is not known at the foot.
+  EXPECT_EQ(foot_reflectance({{red, false}}, true), Rgb(0.0));
+}
+
 TEST(Touching, ASpotShinesToItsSideOfAFaceOfTwo) {
   Scene scene = wall_with(double_sided(diffuse(0.5)), 0.0);
   scene.lights.push_back(light_at(5e-6, PunctualKind::spot));
