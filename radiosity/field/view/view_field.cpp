@@ -131,18 +131,29 @@ private:
     });
   }
 
-  /// Where edges end in cells within a pixel, their corners take the mean of what they stand for.
+  /// Where edges end in cells within a pixel, their corners take the mean of what they stand for. The corners of larger
+  /// cells stay what they are: these would show it over all of their width.
   void filter_edges() {
     std::vector<std::uint8_t> levels(lights_.size(), 0); // of the smallest cell about a vertex that an edge ends in
+    std::vector<std::uint8_t> coarsest(lights_.size(), LatticeCells::finest);
     for (std::uint32_t c = 0; c < cells_.cells().size(); ++c) {
       const LatticeCell& cell = cells_.cells()[c];
       const double pixels = seen_.pixels(c);
-      if (cell.first_child == LatticeCell::leaf && pixels > 0.0 && pixels <= 0.5 && pixels * double{spread_of(cell)} > how_.tolerance)
-        for (const std::uint32_t v : cell.corners)
-          // Of the facets of a curve each has a lattice of its own, and the light of the first one's vertex.
-          if (const std::uint32_t first = places_.first_of(v); is_on_side_of(cell, first))
-            levels[first] = std::max(levels[first], cell.level);
+      if (cell.first_child != LatticeCell::leaf || !(pixels > 0.0))
+        continue;
+      const bool has_edge = pixels <= 0.5 && pixels * double{spread_of(cell)} > how_.tolerance;
+      for (const std::uint32_t v : cell.corners) {
+        // Of the facets of a curve each has a lattice of its own, and the light of the first one's vertex.
+        const std::uint32_t first = places_.first_of(v);
+        const bool same_lattice = is_on_side_of(cell, first);
+        coarsest[first] = std::min(coarsest[first], same_lattice ? cell.level : std::uint8_t{0});
+        if (has_edge && same_lattice)
+          levels[first] = std::max(levels[first], cell.level);
+      }
     }
+    for (std::uint32_t v = 0; v < levels.size(); ++v)
+      if (levels[v] > coarsest[v])
+        levels[v] = 0;
     std::vector<std::uint32_t> at_edges;
     for (std::uint32_t v = 0; v < levels.size(); ++v)
       if (levels[v] > 0)
