@@ -34,25 +34,6 @@ json WalkPages::drawn(const std::string& page, const std::string& fragment, cons
   return browse_drawn_page(folder_.path(), (folder_ / page).string(), fragment, use);
 }
 
-json WalkPages::data_of(const std::string& page) {
-  const std::string html = read_file(folder_ / page), begin = R"(<script id="data" type="application/json">)";
-  const auto from = html.find(begin) + begin.size();
-  return json::parse(html.substr(from, html.find("</script>", from) - from));
-}
-
-std::optional<json> WalkPages::save_picture_of_page(const std::string& page, const std::string& link,
-                                                    const std::string& file) {
-  json said = drawn(page, link, wait_for_picture);
-  if (said.is_null() || said.at("problem").get<std::string>().find("WebGL 2") != std::string::npos)
-    return std::nullopt;
-  EXPECT_EQ(said.at("problem"), "");
-  const std::string address = said.at("shot");
-  const std::vector<std::byte> png = from_base64(address.substr(address.find(',') + 1));
-  std::ofstream(folder_ / file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  return said;
-}
-
 json WalkPages::page_beside_picture(const PageCase& page) {
   std::vector<std::string> solve{"solve", page.scene, "-o", "s.glb", "--quality", "draft"};
   if (!page.lamps.empty())
@@ -74,11 +55,16 @@ json WalkPages::page_beside_picture(const PageCase& page) {
   }
   const Outcome picture = run(render);
   EXPECT_EQ(picture.code, 0) << picture.err;
-  const auto said = save_picture_of_page("s.html", link, "w.png");
-  if (!said)
+  const json said = drawn("s.html", link, wait_for_picture);
+  if (said.is_null() || said.at("problem").get<std::string>().find("WebGL 2") != std::string::npos)
     return nullptr;
+  EXPECT_EQ(said.at("problem"), "");
+  const std::string address = said.at("shot");
+  const std::vector<std::byte> png = from_base64(address.substr(address.find(',') + 1));
+  std::ofstream(folder_ / "w.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   json difference = json::parse(run({"diff", "w.png", "s.png", "--json"}).out);
-  difference["figures"] = said->at("figures");
+  difference["figures"] = said.at("figures");
   return difference;
 }
 

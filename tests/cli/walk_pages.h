@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,11 +27,6 @@ protected:
   void write_tiny_page();
   nlohmann::json drawn(const std::string& page, const std::string& fragment,
                        const std::string& use);
-  /// What a page was made of.
-  nlohmann::json data_of(const std::string& page);
-  /// The picture that a page makes of a link with `&shot`; what the page says of it. Null where the browser draws none.
-  std::optional<nlohmann::json> save_picture_of_page(const std::string& page, const std::string& link,
-                                                     const std::string& file);
   /// FLIP and figures of the page's picture, under its lamps as a link has them, beside that of `render
   /// --diffuse interpolated --lamp`, of the same solution. Null where the browser draws none.
   nlohmann::json page_beside_picture(const PageCase& page);

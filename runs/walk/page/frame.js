@@ -40,7 +40,7 @@ function makePainter(gl, data, room, textures, maxWorlds) {
   gl.bindTexture(gl.TEXTURE_2D, black);
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   setFilters(gl, gl.NEAREST, gl.NEAREST);
-  const probeExposed = 2 ** data.cameras[0].exposure, mirroredUnit = 3, firstSheet = 5;
+  const probeExposed = 2 ** data.cameras[0].exposure, firstSheet = 5;
   let lines = null, instead = null, options, draws, at = roomProgram.at, state = -1;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
@@ -127,7 +127,7 @@ function makePainter(gl, data, room, textures, maxWorlds) {
     if (!count) return;
     gl.uniform1i(at.shows, what);
     group.units.forEach((texture, k) => bind(firstSheet + k, textures[texture]));
-    bind(mirroredUnit, mirrored);
+    bind(3, mirrored);
     gl.drawElements(gl.TRIANGLES, 3 * count, gl.UNSIGNED_INT, 12 * first);
     ++draws;
   }
@@ -228,7 +228,6 @@ function makePainter(gl, data, room, textures, maxWorlds) {
       freeTarget(gl, targets[place]);
       targets[place] = null;
     }
-    gl.activeTexture(gl.TEXTURE0 + mirroredUnit); // each draw binds its own there; the other units keep what a frame has
     targets[place] = targets[place] || makeTarget(gl, width, height, samples);
     gl.bindFramebuffer(gl.FRAMEBUFFER, targets[place].drawn);
     gl.useProgram(roomProgram.program);

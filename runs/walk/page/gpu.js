@@ -194,7 +194,7 @@ function setSky(gl, sky, factor, ofSun) {
 }
 
 /// A picture of linear light with depth and stencil, `asked` samples to a pixel, and the texture that
-/// their means go to, which stays bound to the active unit.
+/// their means go to.
 function makeTarget(gl, width, height, asked) {
   const samples = asked > 1 ? Math.min(asked, gl.getInternalformatParameter(gl.RENDERBUFFER, gl.RGBA16F, gl.SAMPLES)[0] || 0) : 0;
   const target = { width, height, asked, drawn: gl.createFramebuffer(), mean: gl.createFramebuffer(), texture: gl.createTexture(),
